@@ -1,0 +1,127 @@
+# Pongeye. What to type:
+#   make           build the library and every program into build/
+#   make test      install what is missing, build, run the tests
+#   make demo      install what is missing, build, watch the tracker follow simulated cameras
+#   make install   into PREFIX (/usr/local), with DESTDIR for packagers
+#   make help      the rest
+
+BUILD  ?= build
+PREFIX ?= /usr/local
+VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
+
+# The library, in the order of the data.
+LIB := error rig camera settings region detect locate reconstruct track flight predict window eye
+
+# The programs, each a folder of tools/, and the packages that each needs.
+PROGRAMS := track simulate bench
+PACKAGES_lib      := eigen3
+PACKAGES_track    := aravis-0.8 lcm
+PACKAGES_simulate := eigen3
+PACKAGES_bench    := eigen3
+OPENCV_track      := -lopencv_imgcodecs -lopencv_core
+OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+
+# What Debian and Ubuntu call what we need.
+DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
+	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2
+
+OPTIMISE ?= -O3 -g
+WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
+SANITIZE_FLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fvisibility=hidden -MMD -MP -Ilib
+override CFLAGS   += -std=c11 $(COMMON_FLAGS)
+override CXXFLAGS += -std=c++17 $(COMMON_FLAGS)
+override LDFLAGS  += $(SANITIZE_FLAGS)
+
+# Flags of packages; asked for only when something is compiled, after `make deps` may have installed them. As system
+# headers, so that our warnings are about our own code.
+cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
+libs   = $(if $(1),$(shell pkg-config --libs $(1)))
+
+.PHONY: all
+all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/pongeye.jar \
+     $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy
+
+# --- Dependencies
+
+SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
+
+.PHONY: deps
+deps:
+	@missing=; for package in $(DEBIAN_PACKAGES); do \
+	    dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; \
+	done; \
+	if [ -n "$$missing" ]; then \
+	    echo "Installing what is missing:$$missing"; \
+	    $(SUDO) apt-get update -qq && \
+	    $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $$missing; \
+	fi
+
+# --- The library
+
+LIB_OBJECTS := $(LIB:%=$(BUILD)/obj/lib/%.o)
+
+$(BUILD)/obj/lib/%.o: lib/%.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(call cflags,$(PACKAGES_lib)) -c $< -o $@
+
+$(BUILD)/lib/libpongeye.a: $(LIB_OBJECTS)
+	@mkdir -p $(@D)
+	$(AR) rcs $@ $^
+
+$(BUILD)/lib/libpongeye.so: $(LIB_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) -shared -Wl,-soname,libpongeye.so.0 $(LDFLAGS) $^ -o $@
+
+# --- The messages. lcm-gen fails without its output folder, and exits 0 all the same.
+
+LCMTYPES := $(wildcard lcmtypes/*.lcm)
+LCM_HPP  := $(LCMTYPES:lcmtypes/%.lcm=$(BUILD)/lcmtypes/pongeye/%.hpp)
+
+$(BUILD)/lcmtypes/pongeye/%.hpp: lcmtypes/%.lcm
+	@mkdir -p $(@D) $(BUILD)/lcmtypes/c
+	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(BUILD)/lcmtypes $<
+	lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
+	@test -s $@
+
+$(BUILD)/lib/pongeye.jar: $(LCMTYPES)
+	@mkdir -p $(BUILD)/lcmtypes/java/classes $(@D)
+	lcm-gen --java --jpath $(BUILD)/lcmtypes/java $^
+	javac -cp /usr/share/java/lcm.jar -d $(BUILD)/lcmtypes/java/classes $(BUILD)/lcmtypes/java/pongeye/*.java
+	jar cf $@ -C $(BUILD)/lcmtypes/java/classes .
+
+# --- The programs
+
+COMMON_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/common/*.cpp))
+
+$(BUILD)/obj/tools/common/%.o: tools/common/%.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
+
+# The objects of a program, without its main: tests link these too.
+objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell find tools/$(1) -name '*.cpp' | sort)))
+
+define program
+$(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
+	@mkdir -p $$(@D)
+	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
+	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
+
+$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
+    $(BUILD)/lib/libpongeye.a
+	@mkdir -p $$(@D)
+	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
+endef
+$(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
+
+$(BUILD)/obj/tools/track/%.o: | $(LCM_HPP)
+
+$(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
+	@mkdir -p $(@D)
+	install -m 755 $< $@
+
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
+
+.PHONY: clean
+clean:
+	rm -rf $(BUILD)

@@ -1,0 +1,414 @@
+/* pongeye.h - the eyes of a ping-pong robot.
+ *
+ * Two synchronised cameras in; the ball's position, and where and when it can be hit, out. A stereo pair flows
+ * through these stages, and this header is in their order:
+ *
+ *     frame pair > region > detect > locate > reconstruct > track > predict
+ *                    ^                                         |
+ *                    '----------------- window <---------------'
+ *
+ * Most programs want no more than the eye at the end of this header, which joins the stages:
+ *
+ *     pong_rig rig;
+ *     pong_error error;
+ *     if (pong_rig_load("rig.toml", &rig, &error) < 0)
+ *         fprintf(stderr, "%s\n", error.text);
+ *     pong_settings settings;
+ *     pong_settings_defaults(PONG_BEST, &settings);
+ *     pong_eye *eye = pong_eye_new(&rig, &settings, &error);
+ *     pong_sight sight;
+ *     while (next_pair(&utime, &frame, &left, &right)) {
+ *         pong_eye_push(eye, utime, frame, &left, &right, &sight, &error);
+ *         if (sight.has_prediction && sight.prediction.has_hit)
+ *             swing_at(sight.prediction.hit.position, sight.prediction.hit.utime);
+ *     }
+ *     pong_eye_free(eye);
+ *
+ * Conventions (docs/conventions.md says more)
+ * - Table frame: origin in the middle of the robot's end line, on the playing surface; x to the robot's left, y up,
+ *   z along the table towards the opponent. A ball that rests on the table has y = 0.020.
+ * - Metres, seconds, radians, pixels. Pixel (0, 0) is the centre of the top left pixel; u runs right, v down.
+ * - utime: microseconds since the Unix epoch, of the middle of the exposure.
+ * - Plain structs belong to the caller and hold no pointers to be freed. What has a _new has a _free, which takes NULL.
+ * - Three kinds of failure, never mixed. A caller's bug (a NULL where none is allowed) asserts. The world's fault (a
+ *   file, a wrong size) is a negative code, and one sentence in *error, which may be NULL. Absence ("no ball") is a
+ *   normal answer, 0.
+ * - The library never prints, exits, starts a thread or reads a clock. After the _new calls it allocates nothing.
+ *   Any function may run in any thread; one object is for one thread at a time.
+ */
+#ifndef PONGEYE_H
+#define PONGEYE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PONG_VERSION "0.1.0"
+
+#define PONG_API __attribute__((visibility("default")))
+
+/* The version of the library that runs, as opposed to PONG_VERSION, the one that was compiled against. */
+PONG_API const char *pong_version(void);
+
+enum {
+	PONG_NONE = 0,          /* nothing there: a normal answer */
+	PONG_FOUND = 1,         /* found, or done */
+	PONG_ERROR_FILE = -1,   /* a file cannot be read or written */
+	PONG_ERROR_FORMAT = -2, /* a file or text says something that cannot be understood */
+	PONG_ERROR_VALUE = -3,  /* a value is outside of what is possible */
+	PONG_ERROR_MEMORY = -4, /* out of memory */
+};
+
+/* One sentence that says what is wrong and where: "rig.toml:12:5: left.P needs 12 numbers, has 11". */
+typedef struct pong_error {
+	char text[512];
+} pong_error;
+
+/* A grey picture, 8 bits a pixel, borrowed from the caller for the length of a call. */
+typedef struct pong_image {
+	const uint8_t *pixels; /* row 0 first */
+	int width, height;     /* pixels */
+	ptrdiff_t stride;      /* bytes from one row to the next */
+} pong_image;
+
+typedef enum pong_side { PONG_LEFT = 0, PONG_RIGHT = 1 } pong_side;
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Rig: the two cameras, the ball and the table, as rig.toml describes them
+ */
+
+/* A camera is its projection matrix: s [u v 1]' = P [x y z 1]' (paper, eq. 1), and a lens. */
+typedef struct pong_camera {
+	char id[64];          /* how capture finds it: address or GenICam id; empty if it has none */
+	int width, height;    /* pixels */
+	double P[3][4];       /* pixels from table frame, scaled so that w = depth in metres along the optical axis */
+	double distortion[5]; /* OpenCV's k1 k2 p1 p2 k3, about the K that P contains; all zero: a perfect lens */
+} pong_camera;
+
+/* The ball and how it flies. */
+typedef struct pong_ball_spec {
+	double diameter;    /* m */
+	double mass;        /* kg */
+	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
+	double air_density; /* rho, kg/m^3 */
+	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
+} pong_ball_spec;
+
+/* Where there is no table there is no bounce, and the whole image is searched. */
+typedef struct pong_table {
+	int present;
+	double length, width; /* m */
+} pong_table;
+
+typedef struct pong_rig {
+	pong_ball_spec ball;
+	pong_table table;
+	double hit_z;          /* the plane on which the robot hits, m */
+	pong_camera camera[2]; /* by pong_side */
+} pong_rig;
+
+/* Read rig.toml. On an error *rig is unchanged.
+ * Returns PONG_FOUND, PONG_ERROR_FILE, PONG_ERROR_FORMAT or PONG_ERROR_VALUE, with file, line and column in *error. */
+PONG_API int pong_rig_load(const char *path, pong_rig *rig, pong_error *error);
+
+/* The same from text of any length; name stands for the file in errors. */
+PONG_API int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error);
+
+/* Write *rig as TOML text into text[capacity], always terminated. Returns the length that it takes (as snprintf does:
+ * at capacity or above, the text was cut). What is written reads back to the same numbers. */
+PONG_API int pong_rig_format(const pong_rig *rig, char *text, int capacity);
+
+/* Project a point of the table frame, lens distortion included.
+ * Returns PONG_FOUND, or PONG_NONE where the point is not in front of the camera. It may lie outside of the picture. */
+PONG_API int pong_project(const pong_camera *camera, const double position[3], double uv[2]);
+
+/* Take the lens distortion out of a pixel: where a perfect lens with the same P would have put it. */
+PONG_API void pong_undistort(const pong_camera *camera, const double uv[2], double ideal_uv[2]);
+
+/* The ray that a pixel sees: table frame, from the camera's centre along the unit vector direction, into the scene. */
+PONG_API void pong_ray(const pong_camera *camera, const double uv[2], double centre[3], double direction[3]);
+
+/* The diameter, in pixels, of a sphere of the given diameter (m) at a position; 0 behind the camera. */
+PONG_API double pong_apparent_size(const pong_camera *camera, const double position[3], double diameter);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Settings: the methods and numbers of every stage. A profile fills them all; change what you must afterwards.
+ */
+
+/* PONG_PAPER follows the published method to the letter; PONG_BEST is what measures best. */
+typedef enum pong_profile { PONG_PAPER = 0, PONG_BEST = 1 } pong_profile;
+
+typedef enum pong_locate_method {
+	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
+	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
+} pong_locate_method;
+
+typedef enum pong_state_method {
+	PONG_STATE_TWO_HALVES = 0, /* the paper's smoothing, section 6, Fig. 8 */
+} pong_state_method;
+
+typedef struct pong_settings {
+	struct {
+		double ceiling;     /* the ball is looked for up to this height above the table, m */
+		double margin;      /* and this far beyond the table's side lines, m */
+		double behind;      /* and from this far behind the opponent's end line, m; up to the hit plane */
+		double distance[2]; /* without a table: least and greatest distance from the camera, m */
+	} region;
+	struct {
+		int gap;         /* difference to the picture this many frames earlier ("discontinuous frames") */
+		double contrast; /* a ball differs from the earlier picture by at least this, grey levels */
+	} detect;
+	struct {
+		pong_locate_method method;
+		double sigma; /* standard deviation of a centre, per axis, px: what the covariance of a point rests on
+			       */
+	} locate;
+	struct {
+		double epipolar; /* a pair's centres lie at most this far from each other's epipolar lines, px */
+		double size;     /* apparent and expected size agree within this part of the expected one */
+	} reconstruct;
+	struct {
+		pong_state_method state;
+		double gate;      /* a point of the same flight lies at most this far from where it is expected, m; */
+		double gate_rate; /* and this much farther for every second since the last point, m/s */
+		double lost;      /* a ball not seen for this long is lost, s */
+		double speed;     /* faster than this no ball flies, m/s */
+	} track;
+	struct {
+		double step;      /* of the Euler integration, s */
+		double horizon;   /* no prediction further ahead than this, s */
+		double path_step; /* of the predicted path, s */
+	} predict;
+	struct {
+		double margin;    /* the window reaches this far around the expected ball, px; */
+		double diameters; /* and this many of its diameters */
+	} window;
+} pong_settings;
+
+PONG_API void pong_settings_defaults(pong_profile profile, pong_settings *settings);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Region: where in a picture a ball can be, and how large it is there (paper, section 4.1)
+ */
+
+typedef struct pong_region pong_region;
+
+/* What can be seen over the table in one image row. */
+typedef struct pong_region_row {
+	int begin, end;            /* columns begin .. end - 1; begin == end: nothing in this row */
+	double size_min, size_max; /* diameters that a ball can have there, px */
+} pong_region_row;
+
+/* The part of a camera's picture in which a ball over the table is seen: bounded by the table's projected side lines,
+ * and above them by the planes that stand on them. Without a table: the whole picture.
+ * Returns NULL and says why if no part of the picture is left. */
+PONG_API pong_region *pong_region_new(const pong_rig *rig, pong_side side, const pong_settings *settings,
+				      pong_error *error);
+PONG_API void pong_region_free(pong_region *region);
+
+/* Row v, which must be inside of the picture. */
+PONG_API pong_region_row pong_region_get_row(const pong_region *region, int v);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Detect: five-point detection on the difference of two pictures (paper, section 4.2)
+ */
+
+/* A part of a picture and the sizes that a ball has in it: the search narrowed down by a prediction. */
+typedef struct pong_window {
+	int u, v, width, height;   /* px; it may reach over the picture's borders */
+	double size_min, size_max; /* px */
+} pong_window;
+
+/* What the five points found. */
+typedef struct pong_detection {
+	double u, v;     /* centre of the five points, px; good to a pixel or so */
+	double size;     /* N, the diameter, px */
+	double contrast; /* mean difference inside less that around, grey levels */
+} pong_detection;
+
+typedef struct pong_detector pong_detector;
+
+/* The region is borrowed: free it after the detector. */
+PONG_API pong_detector *pong_detector_new(const pong_region *region, const pong_settings *settings, pong_error *error);
+PONG_API void pong_detector_free(pong_detector *detector);
+
+/* Find what looks like a ball in `current` and was not there in `earlier`, best contrast first. Both pictures have the
+ * camera's size. With a window only what lies in it is searched, else (NULL) the whole region.
+ * Returns how many were written to found[capacity]; 0 if there is none. */
+PONG_API int pong_detect(pong_detector *detector, const pong_image *current, const pong_image *earlier,
+			 const pong_window *window, pong_detection *found, int capacity);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Locate: the ball's centre to a part of a pixel, on the original picture (paper, section 4.3)
+ */
+
+typedef struct pong_centre {
+	double u, v;             /* px */
+	double radius;           /* px */
+	double covariance[2][2]; /* of u, v; px^2 */
+} pong_centre;
+
+/* Fit the centre of a detected ball. Returns PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
+PONG_API int pong_locate(const pong_image *current, const pong_image *earlier, const pong_detection *detection,
+			 const pong_settings *settings, pong_centre *centre);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Reconstruct: from two centres to a point in the table frame (paper, section 5 and appendix)
+ */
+
+typedef struct pong_point {
+	int64_t utime;
+	int64_t frame;
+	double position[3];
+	double covariance[3][3]; /* m^2 */
+} pong_point;
+
+/* The fundamental matrix F of ideal (undistorted) pixels: right' F left = 0 (paper, appendix). */
+PONG_API void pong_fundamental(const pong_camera camera[2], double F[3][3]);
+
+/* How far right_uv lies from the epipolar line of left_uv, px: signed, positive below or, for upright lines, to the
+ * right of it. Lens distortion is removed first. */
+PONG_API double pong_epipolar_distance(const pong_camera camera[2], const double left_uv[2], const double right_uv[2]);
+
+/* The point that both cameras see, by linear least squares (paper, eq. 14 and 15), lens distortion removed first.
+ * Returns PONG_FOUND, or PONG_NONE where the rays are parallel or meet behind a camera. */
+PONG_API int pong_triangulate(const pong_camera camera[2], const double left_uv[2], const double right_uv[2],
+			      double position[3]);
+
+/* Gate a pair of centres by epipolar distance and by the ball's size, and reconstruct. Fills position and covariance
+ * of *point (not utime and frame). Returns PONG_FOUND, or PONG_NONE where the two are not one ball. */
+PONG_API int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_centre *right,
+			      const pong_settings *settings, pong_point *point);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Track: which points belong to one flight, and the ball's state that follows from them
+ */
+
+/* The ball at one moment. */
+typedef struct pong_state {
+	int64_t utime;
+	double position[3]; /* m */
+	double velocity[3]; /* m/s */
+} pong_state;
+
+typedef enum pong_track_event {
+	PONG_TRACK_REJECTED = 0, /* the point fits no flight: it was not used */
+	PONG_TRACK_BEGUN = 1,    /* the first point of a flight */
+	PONG_TRACK_FOLLOWED = 2, /* a further point of the flight */
+} pong_track_event;
+
+typedef struct pong_track pong_track;
+
+PONG_API pong_track *pong_track_new(const pong_rig *rig, const pong_settings *settings, pong_error *error);
+PONG_API void pong_track_free(pong_track *track);
+
+/* Add a point. Points that come late or twice are rejected. */
+PONG_API pong_track_event pong_track_push(pong_track *track, const pong_point *point);
+
+/* Say that no ball was seen at this time: a ball not seen for too long is lost. */
+PONG_API void pong_track_miss(pong_track *track, int64_t utime);
+
+/* The number of the flight, 1 for the first; 0 while there is none. */
+PONG_API int32_t pong_track_id(const pong_track *track);
+
+/* How many points the flight has, 0 while there is none. */
+PONG_API int pong_track_count(const pong_track *track);
+
+/* The ball's state as far as the flight's points tell, from two points on. Its time is the estimate's own, not
+ * necessarily that of the last point. Returns PONG_FOUND or PONG_NONE. */
+PONG_API int pong_track_state(const pong_track *track, pong_state *state);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Predict: the flight to come (paper, section 6)
+ */
+
+#define PONG_PATH_CAPACITY 128
+
+typedef struct pong_prediction {
+	int64_t utime;               /* of the state that it starts from */
+	int has_hit;                 /* 0: the ball does not come to the hit plane within the horizon */
+	pong_state hit;              /* on the hit plane z = rig.hit_z */
+	double hit_covariance[4][4]; /* of x, y, z (m) and time (s); NaN where the method knows none */
+	int has_bounce;
+	pong_state bounce; /* the next bounce on the table: position, and velocity before it */
+	double spin[3];    /* rad/s; NaN where unknown */
+	int path_count;    /* the way to the hit, or to the horizon */
+	struct {
+		int64_t utime;
+		double position[3];
+	} path[PONG_PATH_CAPACITY];
+} pong_prediction;
+
+/* Fly on from a state to the hit plane. Returns PONG_FOUND, or PONG_NONE if the state is not finite. */
+PONG_API int pong_predict(const pong_rig *rig, const pong_state *state, const pong_settings *settings,
+			  pong_prediction *prediction);
+
+/* Where the ball is at another time, no earlier than the state's. Returns PONG_FOUND or PONG_NONE. */
+PONG_API int pong_predict_at(const pong_rig *rig, const pong_state *state, int64_t utime, const pong_settings *settings,
+			     pong_state *then);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Window: where in the next pictures the ball is expected
+ */
+
+/* The window of one camera's picture around a ball at `position`. PONG_NONE where that is out of its sight. */
+PONG_API int pong_window_around(const pong_rig *rig, pong_side side, const double position[3],
+				const pong_settings *settings, pong_window *window);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Eye: the stages joined. Push stereo pairs, get ball and prediction.
+ */
+
+/* Why a pair has a ball, or has none. */
+typedef enum pong_outcome {
+	PONG_SEEN = 0,         /* one ball, in both pictures */
+	PONG_NOTHING = 1,      /* no ball in either picture */
+	PONG_ONE_EYED = 2,     /* a ball in one picture only */
+	PONG_MISMATCH = 3,     /* balls in both, but none that could be the same */
+	PONG_REJECTED = 4,     /* a ball that fits no flight */
+	PONG_OUT_OF_ORDER = 5, /* the pair is not later than the one before: dropped */
+	PONG_OUTCOMES = 6
+} pong_outcome;
+
+/* The ball in one stereo pair. */
+typedef struct pong_ball {
+	int64_t utime;
+	int64_t frame;
+	int32_t track;            /* the flight that it belongs to */
+	double position[3];       /* m */
+	double velocity[3];       /* m/s; NaN on the first sight */
+	double covariance[3][3];  /* of the position, m^2 */
+	pong_centre centre[2];    /* by pong_side */
+	double epipolar_distance; /* px */
+} pong_ball;
+
+typedef struct pong_sight {
+	pong_outcome outcome;
+	int detections[2]; /* how many places looked like a ball, by pong_side */
+	int windowed;      /* whether the search was narrowed down by a prediction */
+	int has_ball;
+	pong_ball ball;
+	int observations; /* points of the flight so far */
+	int has_prediction;
+	pong_prediction prediction;
+} pong_sight;
+
+typedef struct pong_eye pong_eye;
+
+/* Both structs are copied. Returns NULL and says why where the rig or a setting is impossible. */
+PONG_API pong_eye *pong_eye_new(const pong_rig *rig, const pong_settings *settings, pong_error *error);
+PONG_API void pong_eye_free(pong_eye *eye);
+
+/* Look at one stereo pair; the pictures are not kept. *sight is always filled.
+ * Returns PONG_FOUND with a ball, PONG_NONE without, PONG_ERROR_VALUE if a picture has not its camera's size. */
+PONG_API int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
+			   pong_sight *sight, pong_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
