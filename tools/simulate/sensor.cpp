@@ -36,9 +36,14 @@ Sensor::Sensor(const SensorSettings &settings, uint64_t seed)
 		normal_.push_back(static_cast<Fixed>(std::lround(std::clamp(normal(random), -7.9, 7.9) * normal_unit)));
 }
 
-Fixed Sensor::light(double level) const
+Fixed Sensor::light(double level)
 {
-	return static_cast<Fixed>(std::lround(std::clamp(level, 0.0, 255.0) * light_unit));
+	return static_cast<Fixed>(std::clamp(level, 0.0, 255.0) * light_unit + 0.5);
+}
+
+double Sensor::level(Fixed light)
+{
+	return light / light_unit;
 }
 
 Fixed Sensor::deviation(Fixed light) const

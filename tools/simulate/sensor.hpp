@@ -21,7 +21,9 @@ class Sensor
 public:
 	Sensor(const SensorSettings &settings, uint64_t seed);
 
-	Fixed light(double level) const;
+	// Light from grey levels, and back.
+	static Fixed light(double level);
+	static double level(Fixed light);
 	Fixed deviation(Fixed light) const;
 
 	// Expose one row. `key` tells rows and pictures apart: the same key gives the same noise.
