@@ -30,8 +30,8 @@ public:
 	void take(int64_t frame, double time, const Episode *episode)
 	{
 		renderer_.render(episode, {time, duration_, static_cast<uint64_t>(frame)}, picture_.data);
-		const std::string name = pong::format("%s/%06lld-%s.png", path_.c_str(),
-						      static_cast<long long>(frame), side_);
+		const std::string name =
+			pong::format("%s/%06lld-%s.png", path_.c_str(), static_cast<long long>(frame), side_);
 		if (!cv::imwrite(name, picture_, {cv::IMWRITE_PNG_COMPRESSION, 1}))
 			throw pong::Failure(name + ": cannot write");
 	}

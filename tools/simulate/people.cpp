@@ -13,8 +13,8 @@ using Eigen::Vector2d;
 
 // How somebody moves, and what they wear.
 struct Person {
-	double x, z, height;        // m
-	double pace, sway;          // steps from side to side: turns/s, m
+	double x, z, height;           // m
+	double pace, sway;             // steps from side to side: turns/s, m
 	double swing, shirt, trousers; // arms: turns/s; clothes: grey levels
 	double pattern;
 };
@@ -49,7 +49,8 @@ void add_person(const Person &person, double time, std::vector<Limb> *limbs)
 	const Vector2d hip(person.x + person.sway * std::sin(step), floor_y + 0.52 * h);
 	const Vector2d neck = hip + Vector2d(0.03 * std::sin(step + 1), 0.30 * h);
 	const auto add = [&](const Vector2d &from, const Vector2d &to, double radius, double level, double contrast) {
-		limbs->push_back({from, to, person.z, radius, level, contrast, person.pattern + 0.37 * static_cast<double>(limbs->size())});
+		limbs->push_back({from, to, person.z, radius, level, contrast,
+				  person.pattern + 0.37 * static_cast<double>(limbs->size())});
 	};
 	for (const double side : {-1.0, 1.0}) {
 		const double stride = 0.12 * side + 0.16 * std::sin(step + side);

@@ -15,7 +15,7 @@ namespace
 constexpr int run = 64;              // pixels that take deviates from one place
 constexpr size_t normals = 1u << 17; // 256 kB: stays in a core's cache
 constexpr double light_unit = 64, deviation_unit = 1024, normal_unit = 4096;
-constexpr Fixed half_level = 32;     // to round
+constexpr Fixed half_level = 32; // to round
 // A product of deviation and normal deviate has this unit; its upper 16 bits have that of light.
 static_assert(deviation_unit * normal_unit == light_unit * 65536, "noise and light have one unit");
 

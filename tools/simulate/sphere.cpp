@@ -38,8 +38,8 @@ struct Shading {
 	float at(float nx, float ny, float nz) const
 	{
 		const auto along = [&](const Vector3f &v) { return nx * v.x() + ny * v.y() + nz * v.z(); };
-		float light = ambient + hemisphere * (0.5f + 0.5f * along(up)) +
-			      diffuse * std::max(0.0f, along(towards));
+		float light =
+			ambient + hemisphere * (0.5f + 0.5f * along(up)) + diffuse * std::max(0.0f, along(towards));
 		if (logo_shade > 0 && along(logo) > 0.94f)
 			light *= 1 - logo_shade;
 		if (specular > 0)
@@ -52,7 +52,7 @@ struct Shading {
 // the sphere where D = r^2 |d|^2 - |c x d|^2 is not negative. With d = c / c_z + (p, q, 0) the cross product has no
 // cancellation, and single precision suffices.
 struct Cone {
-	float cx, cy, cz;   // centre, m
+	float cx, cy, cz;     // centre, m
 	float axis_x, axis_y; // ideal image point of the centre
 	float r2;
 
