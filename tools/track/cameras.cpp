@@ -205,17 +205,16 @@ private:
 
 void check_ids(const pong_rig &rig)
 {
+	const char *const names[] = {"left", "right"};
 	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-		if (!*rig.camera[side].id) {
-			const char *section = side == PONG_LEFT ? "left" : "right";
+		if (!*rig.camera[side].id)
 			throw pong::Failure(
-				pong::format("rig.toml names no camera in [%s]: add camera = \"address or id\" "
-					     "there, or give --images DIR",
-					     section));
-		}
+				pong::format("the rig names no %s camera: add camera = \"address or id\" to [%s] "
+					     "in rig.toml, or give --images DIR",
+					     names[side], names[side]));
 	if (strcmp(rig.camera[PONG_LEFT].id, rig.camera[PONG_RIGHT].id) == 0)
-		throw pong::Failure(std::string("rig.toml names the same camera, ") + rig.camera[PONG_LEFT].id +
-				    ", in [left] and [right]");
+		throw pong::Failure(pong::format("the rig names the same camera, %s, for left and right",
+						 rig.camera[PONG_LEFT].id));
 }
 
 } // namespace

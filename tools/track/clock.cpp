@@ -13,8 +13,8 @@ namespace
 // Between readings a second apart a poor crystal (100 ppm) drifts by 0.1 ms; a busy host delays by a few.
 constexpr double CONTRADICTION_NS = 20e6;
 
-// Readings closer together than this say nothing about drift: 10 us of reading error over 4 s are 2.5 ppm.
-constexpr double SPAN_FOR_DRIFT_NS = 4e9;
+// What is known of a crystal's drift before it is measured.
+constexpr double DRIFT_SIGMA = 50e-6;
 
 int64_t read_clock(clockid_t clock)
 {
@@ -45,12 +45,12 @@ void ClockFit::add(const ClockReading &reading)
 		first_device_ns_ = reading.device_ns;
 		first_difference_ns_ = host_now - reading.device_ns;
 	}
-	const double round_trip = std::max<double>(reading.round_trip_ns(), 1);
+	const double sigma = std::max<double>(reading.round_trip_ns(), 1) / std::sqrt(12.0); // ns
 	const size_t place = count_ < CAPACITY ? count_++ : oldest_;
 	oldest_ = count_ < CAPACITY ? 0 : (place + 1) % CAPACITY;
 	samples_[place] = {static_cast<double>(reading.device_ns - first_device_ns_),
 			   static_cast<double>(host_now - reading.device_ns - first_difference_ns_),
-			   1 / (round_trip * round_trip)};
+			   1 / (sigma * sigma)};
 	fit();
 }
 
@@ -65,15 +65,13 @@ void ClockFit::fit()
 	mean_device_ = device / weight;
 	offset_ = difference / weight;
 
-	double covariance = 0, variance = 0, least = samples_[0].device, greatest = least;
+	double covariance = 0, variance = 1 / (DRIFT_SIGMA * DRIFT_SIGMA);
 	for (size_t i = 0; i < count_; i++) {
 		const double x = samples_[i].device - mean_device_;
 		covariance += samples_[i].weight * x * (samples_[i].difference - offset_);
 		variance += samples_[i].weight * x * x;
-		least = std::min(least, samples_[i].device);
-		greatest = std::max(greatest, samples_[i].device);
 	}
-	drift_ = greatest - least >= SPAN_FOR_DRIFT_NS ? covariance / variance : 0;
+	drift_ = covariance / variance;
 }
 
 int64_t ClockFit::host_ns(int64_t device_ns) const

@@ -28,8 +28,7 @@ double Latencies::percentile(double part) const
 	size_t bin = 0;
 	while ((below += counts_[bin]) < rank)
 		bin++;
-	const double middle = SHORTEST * std::pow(GROWTH, static_cast<double>(bin) + 0.5);
-	return std::min(middle, max_);
+	return std::min(SHORTEST * std::pow(GROWTH, static_cast<double>(bin + 1)), max_);
 }
 
 double Latencies::max() const

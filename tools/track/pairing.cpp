@@ -8,9 +8,19 @@
 namespace track
 {
 
+namespace
+{
+
+// Pictures of one pulse lie far closer together, those of two pulses a whole period apart. Half a period is the limit;
+// a third leaves room for jitter, and holds even where a learnt period is twice the true one, because every second
+// pulse was missed.
+constexpr double TOLERANCE = 1.0 / 3;
+
+} // namespace
+
 Pairing::Pairing(double rate, Release release)
 	: release_(std::move(release)), last_utime_{INT64_MIN, INT64_MIN}, period_(rate > 0 ? 1e6 / rate : 0),
-	  tolerance_(period_ / 2)
+	  tolerance_(TOLERANCE * period_)
 {
 }
 
@@ -20,16 +30,20 @@ void Pairing::push(pong_side side, const Picture &picture)
 		dismiss(side, picture);
 		return;
 	}
-	if (period_ == 0 && last_utime_[side] != INT64_MIN)
-		learn_period(picture.utime - last_utime_[side]);
+	const int64_t before = last_utime_[side];
 	last_utime_[side] = picture.utime;
+	if (period_ == 0) {
+		if (before != INT64_MIN)
+			learn_period(picture.utime - before);
+		release_(side, picture);
+		return;
+	}
 	if (waiting_[side].full())
 		dismiss(side, waiting_[side].pop());
 	waiting_[side].push(picture);
 }
 
-// The median, because a missed pulse makes an interval twice as long. Should every second pulse be missed, it is twice
-// the true period: therefore a learnt period tolerates half of what a given one does.
+// The median, because a missed pulse makes an interval twice as long.
 void Pairing::learn_period(int64_t interval)
 {
 	intervals_[interval_count_++] = interval;
@@ -37,13 +51,11 @@ void Pairing::learn_period(int64_t interval)
 		return;
 	std::nth_element(intervals_, intervals_ + INTERVALS / 2, intervals_ + INTERVALS);
 	period_ = static_cast<double>(intervals_[INTERVALS / 2]);
-	tolerance_ = period_ / 4;
+	tolerance_ = TOLERANCE * period_;
 }
 
 bool Pairing::pop(PicturePair &pair)
 {
-	if (period_ == 0)
-		return false;
 	Fifo<Picture, WAITING> &left = waiting_[PONG_LEFT], &right = waiting_[PONG_RIGHT];
 	while (!left.empty() && !right.empty()) {
 		const int64_t difference = right.front().utime - left.front().utime;

@@ -31,7 +31,8 @@ public:
 	// What to do with a picture that has no partner.
 	using Release = std::function<void(pong_side side, const Picture &picture)>;
 
-	// rate: trigger pulses a second; 0: learn it from the first pictures, which wait for that.
+	// rate: trigger pulses a second; 0: learn it from the first pictures, which are released and not
+	// counted: they would come late.
 	Pairing(double rate, Release release);
 
 	// Add a picture. Those of one side come in the order of time; the two sides may run ahead of each other.

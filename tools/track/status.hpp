@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -15,10 +16,10 @@ namespace track
 // What PONGEYE_STATUS says; NaN where a second had nothing to measure.
 struct StatusReport {
 	int64_t pairs = 0, dropped = 0;
-	std::array<int64_t, PONG_OUTCOMES> outcomes = {}; // pairs by pong_outcome
-	double pair_rate = 0, ball_rate = 0;              // per second
-	double latency_median, latency_p99, latency_max;  // s
-	double epipolar_mean, epipolar_rms;               // px
+	std::array<int64_t, PONG_OUTCOMES> outcomes = {};                  // pairs by pong_outcome
+	double pair_rate = NAN, ball_rate = NAN;                           // per second
+	double latency_median = NAN, latency_p99 = NAN, latency_max = NAN; // s
+	double epipolar_mean = NAN, epipolar_rms = NAN;                    // px
 };
 
 class Status
