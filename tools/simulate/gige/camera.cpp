@@ -86,7 +86,7 @@ void Camera::serve()
 {
 	Bytes datagram;
 	Endpoint from;
-	while (control_socket_.receive(datagram, from)) {
+	for (int i = 0; i < datagrams_a_round && control_socket_.receive(datagram, from); i++) {
 		const Answer answer = control_.handle(datagram.data(), datagram.size(), from, monotonic_now());
 		if (!answer.reply.empty())
 			control_socket_.send(from, answer.reply);
@@ -145,7 +145,7 @@ std::optional<Camera::Shot> Camera::plan_by_line(int64_t earliest) const
 	return Shot{pulse->time, pulse->number, true, false};
 }
 
-// Triggers that come while the sensor is busy are lost, as on a real one.
+// Several triggers that come while a picture is under way make one more picture.
 std::optional<Camera::Shot> Camera::plan_by_software(const Acquisition &acquisition)
 {
 	if (software_triggers_ == acquisition.software_triggers)

@@ -13,6 +13,9 @@
 namespace gige
 {
 
+// A flood of datagrams must not keep the rest of the server from its work.
+constexpr int datagrams_a_round = 64;
+
 class Camera
 {
 public:

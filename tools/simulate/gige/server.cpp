@@ -121,7 +121,7 @@ void Server::Implementation::answer_discovery()
 {
 	Bytes datagram;
 	Endpoint from;
-	while (discovery_socket.receive(datagram, from))
+	for (int i = 0; i < datagrams_a_round && discovery_socket.receive(datagram, from); i++)
 		for (const auto &camera : cameras)
 			camera->answer_discovery(datagram, from);
 }
