@@ -144,7 +144,8 @@ protected:
 	static void TearDownTestSuite()
 	{
 		pong::request_stop();
-		serving.join();
+		if (serving.joinable())
+			serving.join();
 		server.reset();
 	}
 
@@ -378,6 +379,30 @@ TEST_F(GigeAravis, TheLatchedClockRunsInNanoseconds)
 		g_usleep(100000);
 	}
 	EXPECT_NEAR(static_cast<double>(device[1] - device[0]) / 1000, static_cast<double>(host[1] - host[0]), 50000);
+}
+
+TEST_F(GigeAravis, ASecondServerSaysWhyItCannotBe)
+{
+	try {
+		const gige::Server second(server_settings(), source);
+		FAIL() << "two servers on one port";
+	} catch (const pong::Failure &failure) {
+		EXPECT_NE(std::string(failure.what()).find("127.0.0.1, port 3956"), std::string::npos)
+			<< failure.what();
+	}
+}
+
+TEST_F(GigeAravis, ImpossibleSettingsAreRefused)
+{
+	gige::ServerSettings settings = server_settings();
+	settings.width = 641;
+	EXPECT_THROW(gige::Server(settings, source), pong::Failure);
+	settings = server_settings();
+	settings.cameras.clear();
+	EXPECT_THROW(gige::Server(settings, source), pong::Failure);
+	settings = server_settings();
+	settings.rate = 0;
+	EXPECT_THROW(gige::Server(settings, source), pong::Failure);
 }
 
 TEST_F(GigeAravis, IsDiscovered)

@@ -5,22 +5,14 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "gvcp.hpp"
+#include "power_on.hpp"
 #include "registers.hpp"
 #include "stream.hpp"
 
 namespace gige
 {
-
-struct ControlSettings {
-	uint32_t address; // the camera's own, IPv4
-	std::string serial;
-	int sensor_width, sensor_height; // px
-	double exposure;                 // s
-	int64_t power_on;                // when the camera's clock began, ns of CLOCK_MONOTONIC
-};
 
 // What a command leads to.
 struct Answer {
