@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "camera.hpp"
+#include "aravis_camera.hpp"
 #include "clock.hpp"
 #include "fifo.hpp"
 #include "pairing.hpp"

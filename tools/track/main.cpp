@@ -10,7 +10,7 @@
 #include "cameras.hpp"
 #include "clock.hpp"
 #include "images.hpp"
-#include "live.hpp"
+#include "live_table.hpp"
 #include "output.hpp"
 #include "program.hpp"
 #include "publisher.hpp"

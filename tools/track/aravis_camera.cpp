@@ -1,4 +1,4 @@
-#include "camera.hpp"
+#include "aravis_camera.hpp"
 
 #include <cmath>
 #include <utility>
