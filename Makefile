@@ -20,6 +20,7 @@ PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
@@ -39,7 +40,7 @@ cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
 libs   = $(if $(1),$(shell pkg-config --libs $(1)))
 
 .PHONY: all
-all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/pongeye.jar \
+all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/libpongeye-lcmtypes.a $(BUILD)/lib/pongeye.jar \
      $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy
 
 # --- Dependencies
@@ -83,6 +84,12 @@ $(BUILD)/lcmtypes/pongeye/%.hpp: lcmtypes/%.lcm
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(BUILD)/lcmtypes $<
 	lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
 	@test -s $@
+
+# For robots in C: the messages' encoders, to be linked with lcm.
+$(BUILD)/lib/libpongeye-lcmtypes.a: $(LCM_HPP)
+	@mkdir -p $(@D)
+	cd $(BUILD)/lcmtypes/c && $(CC) -std=gnu11 -O2 -fPIC $(call cflags,lcm) -c *.c
+	$(AR) rcs $@ $(BUILD)/lcmtypes/c/*.o
 
 $(BUILD)/lib/pongeye.jar: $(LCMTYPES)
 	@mkdir -p $(BUILD)/lcmtypes/java/classes $(@D)
@@ -150,6 +157,29 @@ test: deps
 
 check: all $(BUILD)/tests/unit
 	BUILD=$(BUILD) tests/run
+
+# --- Demo, installation
+
+.PHONY: demo install
+demo: deps
+	$(MAKE) all
+	BUILD=$(BUILD) tools/demo/pongeye-demo
+
+INSTALL_DIR := $(DESTDIR)$(PREFIX)
+
+install: all
+	install -d $(addprefix $(INSTALL_DIR)/,bin include/pongeye lib/pkgconfig share/java share/pongeye/lcmtypes)
+	install -m 755 $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy $(INSTALL_DIR)/bin
+	install -m 644 lib/pongeye.h $(INSTALL_DIR)/include
+	install -m 644 $(BUILD)/lcmtypes/c/*.h $(LCM_HPP) $(INSTALL_DIR)/include/pongeye
+	install -m 644 $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye-lcmtypes.a $(INSTALL_DIR)/lib
+	install -m 755 $(BUILD)/lib/libpongeye.so $(INSTALL_DIR)/lib/libpongeye.so.$(VERSION)
+	ln -sf libpongeye.so.$(VERSION) $(INSTALL_DIR)/lib/libpongeye.so.0
+	ln -sf libpongeye.so.0 $(INSTALL_DIR)/lib/libpongeye.so
+	install -m 644 $(BUILD)/lib/pongeye.jar $(INSTALL_DIR)/share/java
+	install -m 644 $(LCMTYPES) $(INSTALL_DIR)/share/pongeye/lcmtypes
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' lib/pongeye.pc.in >$(INSTALL_DIR)/lib/pkgconfig/pongeye.pc
+	$(if $(DESTDIR),,-ldconfig 2>/dev/null)
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 

@@ -7,4 +7,7 @@ namespace bench
 // Score a tracker's output against a simulator's truth.
 int score(int argc, char **argv);
 
+// Draw one flight.
+int draw(int argc, char **argv);
+
 } // namespace bench
