@@ -136,7 +136,7 @@ UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) 
 TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
 TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
 # Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
-TEST_INCLUDES := -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
+TEST_INCLUDES := -I. -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
