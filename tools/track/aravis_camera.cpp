@@ -238,14 +238,10 @@ int64_t Camera::late() const
 // In the stream's own thread.
 void Camera::on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *)
 {
-	static std::once_flag warned;
-	if (event == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE)
+	if (event == ARV_STREAM_CALLBACK_TYPE_INIT)
+		make_thread_realtime(STREAM_PRIORITY);
+	else if (event == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE)
 		static_cast<Camera *>(camera)->receive_buffer();
-	else if (event == ARV_STREAM_CALLBACK_TYPE_INIT && !arv_make_thread_realtime(STREAM_PRIORITY))
-		std::call_once(warned, [] {
-			pong::say("the cameras' threads run without real-time priority, which this user may not have: "
-				  "under load pictures come later");
-		});
 }
 
 void Camera::receive_buffer()
@@ -268,6 +264,16 @@ int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
 		return unix_ns() - exposure_ns_;
 	const std::lock_guard<std::mutex> lock(clock_mutex_);
 	return clock_.host_ns(static_cast<int64_t>(arv_buffer_get_timestamp(buffer)));
+}
+
+void make_thread_realtime(int priority)
+{
+	static std::once_flag warned;
+	if (!arv_make_thread_realtime(priority))
+		std::call_once(warned, [] {
+			pong::say(
+				"no real-time priority, which this user may not have: under load pictures come later");
+		});
 }
 
 pong_image image_of(void *buffer)

@@ -92,6 +92,9 @@ private:
 	std::atomic<int64_t> incomplete_{0};
 };
 
+// Real-time priority for the calling thread; where the user may not have it, it is said once, and all goes on.
+void make_thread_realtime(int priority);
+
 // What a picture's buffer holds.
 pong_image image_of(void *buffer);
 
