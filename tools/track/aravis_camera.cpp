@@ -11,7 +11,7 @@ namespace track
 namespace
 {
 
-constexpr int BUFFERS = 32; // of a stream: 0.3 s at 110 Hz
+constexpr int BUFFERS = 64; // of a stream: more than are ever waiting to be tracked, so that it never runs dry
 constexpr int STREAM_PRIORITY = 10;
 
 // Aravis' way to report a failure, turned into ours.
@@ -228,13 +228,6 @@ void Camera::give_back(void *buffer)
 	arv_stream_push_buffer(stream_.get(), static_cast<ArvBuffer *>(buffer));
 }
 
-int64_t Camera::late() const
-{
-	guint64 completed, failed, underruns;
-	arv_stream_get_statistics(stream_.get(), &completed, &failed, &underruns);
-	return static_cast<int64_t>(underruns);
-}
-
 // In the stream's own thread.
 void Camera::on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *)
 {
@@ -255,7 +248,10 @@ void Camera::receive_buffer()
 		return;
 	}
 	const int64_t arrival_ns = monotonic_ns();
-	receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer});
+	if (!receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
+		late_++;
+		give_back(buffer);
+	}
 }
 
 int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
