@@ -10,7 +10,7 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error rig camera settings region detect locate reconstruct track flight predict window eye
+LIB := error document rig camera settings region detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight track predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track simulate bench
@@ -99,13 +99,15 @@ $(BUILD)/obj/tools/common/%.o: tools/common/%.cpp
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
 
 # The objects of a program, without its main: tests link these too.
-objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell find tools/$(1) -name '*.cpp' | sort)))
+objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell find tools/$(1) -name '*.cpp' 2>/dev/null | sort)))
 
 define program
 $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
 	@mkdir -p $$(@D)
 	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
+
+$(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
 
 $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
@@ -114,11 +116,40 @@ $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
-$(BUILD)/obj/tools/track/%.o: | $(LCM_HPP)
-
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)
-	install -m 755 $< $@
+	sed 's/@VERSION@/$(VERSION)/' $< >$@
+	chmod 755 $@
+
+# --- Tests: one binary of unit tests, which links the library and every program but its main, and scripts that run the
+# programs as a user would.
+
+UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) \
+	$(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.c))
+TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
+TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
+# Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
+TEST_INCLUDES := -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
+
+$(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
+
+$(BUILD)/obj/tests/%.o: tests/%.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+
+$(BUILD)/tests/unit: $(UNIT_OBJECTS) $(TOOL_OBJECTS) $(COMMON_OBJECTS) $(BUILD)/lib/libpongeye.a
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
+	    -lgtest -lgtest_main -pthread -o $@
+
+.PHONY: test check
+test: deps
+	$(MAKE) check
+
+check: all $(BUILD)/tests/unit
+	BUILD=$(BUILD) tests/run
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 

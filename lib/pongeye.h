@@ -141,14 +141,23 @@ PONG_API double pong_apparent_size(const pong_camera *camera, const double posit
 /* PONG_PAPER follows the published method to the letter; PONG_BEST is what measures best. */
 typedef enum pong_profile { PONG_PAPER = 0, PONG_BEST = 1 } pong_profile;
 
+typedef enum pong_detect_method {
+	PONG_DETECT_DIFFERENCE = 0, /* the paper's difference to one earlier picture; finds a ball brighter than what is
+				       behind it */
+	PONG_DETECT_DOUBLE_DIFFERENCE = 1, /* to two earlier pictures; finds brighter and darker balls */
+} pong_detect_method;
+
 typedef enum pong_locate_method {
 	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
 	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
+	PONG_LOCATE_EDGES = 2,    /* a sphere's outline fitted to edges on rays */
 } pong_locate_method;
 
 typedef enum pong_state_method {
 	PONG_STATE_TWO_HALVES = 0, /* the paper's smoothing, section 6, Fig. 8 */
 } pong_state_method;
+
+#define PONG_GAP_MAX 64 /* frames */
 
 typedef struct pong_settings {
 	struct {
@@ -158,17 +167,20 @@ typedef struct pong_settings {
 		double distance[2]; /* without a table: least and greatest distance from the camera, m */
 	} region;
 	struct {
-		int gap;         /* difference to the picture this many frames earlier ("discontinuous frames") */
-		double contrast; /* a ball differs from the earlier picture by at least this, grey levels */
+		pong_detect_method method;
+		int gap;         /* difference to the pictures so many, and twice as many, frames earlier */
+		double contrast; /* a ball differs from them by at least this, grey levels */
 	} detect;
 	struct {
 		pong_locate_method method;
-		double sigma; /* standard deviation of a centre, per axis, px: what the covariance of a point rests on
-			       */
+		double sigma;    /* standard deviation of a centre, per axis, px, where the method tells none */
+		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown */
 	} locate;
 	struct {
-		double epipolar; /* a pair's centres lie at most this far from each other's epipolar lines, px */
-		double size;     /* apparent and expected size agree within this part of the expected one */
+		double epipolar;      /* a pair's centres lie at most this far from each other's epipolar lines, px; */
+		double epipolar_size; /* and this part of the ball's diameter farther: the larger the ball, the larger
+					 are the errors of its centre */
+		double size;          /* apparent and expected size agree within this part of the expected one */
 	} reconstruct;
 	struct {
 		pong_state_method state;
@@ -189,6 +201,10 @@ typedef struct pong_settings {
 } pong_settings;
 
 PONG_API void pong_settings_defaults(pong_profile profile, pong_settings *settings);
+
+/* Change the settings that a rig.toml names, in sections called as the members above: [detect] gap = 8. On an error
+ * *settings is unchanged. Returns PONG_FOUND or the errors of pong_rig_load. */
+PONG_API int pong_settings_load(const char *path, pong_settings *settings, pong_error *error);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Region: where in a picture a ball can be, and how large it is there (paper, section 4.1)
@@ -216,6 +232,13 @@ PONG_API pong_region_row pong_region_get_row(const pong_region *region, int v);
  * Detect: five-point detection on the difference of two pictures (paper, section 4.2)
  */
 
+/* A new picture, and two earlier ones of the same camera that it is compared with: not its neighbours, for a ball that
+ * flies along the optical axis moves little from one to the next ("discontinuous frames"). earlier[1] is the older one;
+ * the paper's method does not look at it. All three have the same size. */
+typedef struct pong_pictures {
+	pong_image current, earlier[2];
+} pong_pictures;
+
 /* A part of a picture and the sizes that a ball has in it: the search narrowed down by a prediction. */
 typedef struct pong_window {
 	int u, v, width, height;   /* px; it may reach over the picture's borders */
@@ -235,11 +258,11 @@ typedef struct pong_detector pong_detector;
 PONG_API pong_detector *pong_detector_new(const pong_region *region, const pong_settings *settings, pong_error *error);
 PONG_API void pong_detector_free(pong_detector *detector);
 
-/* Find what looks like a ball in `current` and was not there in `earlier`, best contrast first. Both pictures have the
- * camera's size. With a window only what lies in it is searched, else (NULL) the whole region.
+/* Find what looks like a ball in the current picture and was not there earlier, best contrast first. The pictures have
+ * the camera's size. With a window only what lies in it is searched, else (NULL) the whole region.
  * Returns how many were written to found[capacity]; 0 if there is none. */
-PONG_API int pong_detect(pong_detector *detector, const pong_image *current, const pong_image *earlier,
-			 const pong_window *window, pong_detection *found, int capacity);
+PONG_API int pong_detect(pong_detector *detector, const pong_pictures *pictures, const pong_window *window,
+			 pong_detection *found, int capacity);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Locate: the ball's centre to a part of a pixel, on the original picture (paper, section 4.3)
@@ -251,9 +274,16 @@ typedef struct pong_centre {
 	double covariance[2][2]; /* of u, v; px^2 */
 } pong_centre;
 
-/* Fit the centre of a detected ball. Returns PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
-PONG_API int pong_locate(const pong_image *current, const pong_image *earlier, const pong_detection *detection,
-			 const pong_settings *settings, pong_centre *centre);
+/* Fit the centre of a detected ball: where the sphere's centre is seen in the middle of the exposure. `streak` is how
+ * far the ball's picture moves during the exposure, px, as pong_streak tells; NULL where that is unknown. Returns
+ * PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
+PONG_API int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const pong_detection *detection,
+			 const double streak[2], const pong_settings *settings, pong_centre *centre);
+
+/* How far a ball at a position (m), with a velocity (m/s), moves in the picture during an exposure (s), px.
+ * Returns PONG_FOUND, or PONG_NONE where the ball is not in front of the camera. */
+PONG_API int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
+			 double streak[2]);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Reconstruct: from two centres to a point in the table frame (paper, section 5 and appendix)
@@ -320,6 +350,9 @@ PONG_API int pong_track_count(const pong_track *track);
 /* The ball's state as far as the flight's points tell, from two points on. Its time is the estimate's own, not
  * necessarily that of the last point. Returns PONG_FOUND or PONG_NONE. */
 PONG_API int pong_track_state(const pong_track *track, pong_state *state);
+
+/* The same from the latest few points only: less smooth, but truer of where the ball is just now. */
+PONG_API int pong_track_recent_state(const pong_track *track, pong_state *state);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Predict: the flight to come (paper, section 6)

@@ -1,0 +1,55 @@
+// The ball's centre to a part of a pixel: on the original picture, not on the binary one.
+#include "locate.hpp"
+
+#include <cmath>
+
+namespace pong
+{
+
+namespace
+{
+
+bool locate(const LocateTask &task, pong_locate_method method, pong_centre *centre)
+{
+	switch (method) {
+	case PONG_LOCATE_GAUSSIAN:
+		return locate_gaussian(task, centre);
+	case PONG_LOCATE_CENTROID:
+		return locate_centroid(task, centre);
+	case PONG_LOCATE_EDGES:
+		return locate_edges(task, centre);
+	}
+	return false;
+}
+
+} // namespace
+
+} // namespace pong
+
+int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const pong_detection *detection,
+		const double streak[2], const pong_settings *settings, pong_centre *centre)
+{
+	const pong::LocateTask task = {*camera, *pictures, *detection,
+				       streak ? pong::Vector2(streak[0], streak[1]) : pong::Vector2(0, 0),
+				       settings->locate.sigma};
+	// A centre outside of the ball is a fit gone wrong.
+	if (!pong::locate(task, settings->locate.method, centre) ||
+	    !(std::hypot(centre->u - detection->u, centre->v - detection->v) < detection->size / 2))
+		return PONG_NONE;
+	return PONG_FOUND;
+}
+
+int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
+		double streak[2])
+{
+	double begin[3], end[3], begin_uv[2], end_uv[2];
+	for (int axis = 0; axis < 3; axis++) {
+		begin[axis] = position[axis] - velocity[axis] * exposure / 2;
+		end[axis] = position[axis] + velocity[axis] * exposure / 2;
+	}
+	if (!pong_project(camera, begin, begin_uv) || !pong_project(camera, end, end_uv))
+		return PONG_NONE;
+	streak[0] = end_uv[0] - begin_uv[0];
+	streak[1] = end_uv[1] - begin_uv[1];
+	return PONG_FOUND;
+}

@@ -1,0 +1,154 @@
+// From two centres to a point (paper, section 5 and appendix).
+#include <cmath>
+
+#include "camera.hpp"
+#include "pongeye.h"
+
+namespace pong
+{
+
+namespace
+{
+
+Matrix3 cross_matrix(const Vector3 &d)
+{
+	Matrix3 matrix;
+	matrix << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+	return matrix;
+}
+
+// F = [M2r - M1r M1l^-1 M2l]x M1r M1l^-1 for M = [M1 | M2] (appendix).
+Matrix3 fundamental(const pong_camera camera[2])
+{
+	const Matrix34 left = matrix_of(camera[PONG_LEFT].P), right = matrix_of(camera[PONG_RIGHT].P);
+	const Matrix3 right_from_left = right.leftCols<3>() * left.leftCols<3>().inverse();
+	return cross_matrix(right.col(3) - right_from_left * left.col(3)) * right_from_left;
+}
+
+Vector2 ideal(const pong_camera &camera, double u, double v)
+{
+	const double uv[2] = {u, v};
+	double out[2] = {u, v};
+	for (const double coefficient : camera.distortion)
+		if (coefficient != 0) {
+			pong_undistort(&camera, uv, out);
+			break;
+		}
+	return {out[0], out[1]};
+}
+
+// The two ideal pixels of one ball.
+struct Pair {
+	Vector2 pixel[2];
+};
+
+Pair ideal_pair(const pong_camera camera[2], const double left_uv[2], const double right_uv[2])
+{
+	return {{ideal(camera[PONG_LEFT], left_uv[0], left_uv[1]),
+		 ideal(camera[PONG_RIGHT], right_uv[0], right_uv[1])}};
+}
+
+double epipolar_distance(const pong_camera camera[2], const Pair &pair)
+{
+	const Vector3 line = fundamental(camera) * pair.pixel[PONG_LEFT].homogeneous();
+	const double sign = line.y() < 0 || (line.y() == 0 && line.x() < 0) ? -1 : 1;
+	return sign * line.dot(pair.pixel[PONG_RIGHT].homogeneous()) / line.head<2>().norm();
+}
+
+// s q = M Q in both cameras: two rows per camera, u M3 - M1 and v M3 - M2, solved for Q by least squares
+// (eq. 14 and 15). In front of both cameras, or there is no such point.
+bool triangulate(const pong_camera camera[2], const Pair &pair, Vector3 &position)
+{
+	Eigen::Matrix<double, 4, 3> rows;
+	Eigen::Vector4d right_side;
+	for (int side = 0; side < 2; side++) {
+		const Matrix34 P = matrix_of(camera[side].P);
+		for (int axis = 0; axis < 2; axis++) {
+			const Eigen::RowVector4d row = pair.pixel[side][axis] * P.row(2) - P.row(axis);
+			rows.row(2 * side + axis) = row.head<3>();
+			right_side[2 * side + axis] = -row[3];
+		}
+	}
+	const Matrix3 normal = rows.transpose() * rows;
+	if (!(std::abs(normal.determinant()) > 1e-12 * std::pow(normal.trace() / 3, 3)))
+		return false; // the rays are parallel
+	position = normal.ldlt().solve(rows.transpose() * right_side);
+	for (int side = 0; side < 2; side++)
+		if (!(matrix_of(camera[side].P).row(2).dot(position.homogeneous()) > 0))
+			return false;
+	return true;
+}
+
+// How a camera's ideal pixel moves with the point: d(u, v)/d(x, y, z).
+Eigen::Matrix<double, 2, 3> projection_jacobian(const Matrix34 &P, const Vector3 &position)
+{
+	const Vector3 q = P * position.homogeneous();
+	Eigen::Matrix<double, 2, 3> jacobian;
+	for (int axis = 0; axis < 2; axis++)
+		jacobian.row(axis) = (P.row(axis).head<3>() - q[axis] / q.z() * P.row(2).head<3>()) / q.z();
+	return jacobian;
+}
+
+// The covariance that the two centres leave to the point: the inverse of the information that they carry.
+Matrix3 point_covariance(const pong_camera camera[2], const pong_centre centre[2], const Vector3 &position)
+{
+	Matrix3 information = Matrix3::Zero();
+	for (int side = 0; side < 2; side++) {
+		const auto jacobian = projection_jacobian(matrix_of(camera[side].P), position);
+		const Matrix2 covariance = Eigen::Map<const Matrix2>(&centre[side].covariance[0][0]);
+		information += jacobian.transpose() * covariance.inverse() * jacobian;
+	}
+	return information.inverse();
+}
+
+bool size_agrees(const pong_camera &camera, const Vector3 &position, double diameter, const pong_centre &centre,
+		 double tolerance)
+{
+	const double expected = pong_apparent_size(&camera, position.data(), diameter);
+	return std::abs(2 * centre.radius - expected) <= tolerance * expected;
+}
+
+} // namespace
+
+} // namespace pong
+
+using namespace pong;
+
+void pong_fundamental(const pong_camera camera[2], double F[3][3])
+{
+	store(fundamental(camera), F);
+}
+
+double pong_epipolar_distance(const pong_camera camera[2], const double left_uv[2], const double right_uv[2])
+{
+	return epipolar_distance(camera, ideal_pair(camera, left_uv, right_uv));
+}
+
+int pong_triangulate(const pong_camera camera[2], const double left_uv[2], const double right_uv[2], double position[3])
+{
+	Vector3 point;
+	if (!triangulate(camera, ideal_pair(camera, left_uv, right_uv), point))
+		return PONG_NONE;
+	store(point, position);
+	return PONG_FOUND;
+}
+
+int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_centre *right,
+		     const pong_settings *settings, pong_point *point)
+{
+	const pong_centre centre[2] = {*left, *right};
+	const Pair pair = {
+		{ideal(rig->camera[PONG_LEFT], left->u, left->v), ideal(rig->camera[PONG_RIGHT], right->u, right->v)}};
+	Vector3 position;
+	const double reach =
+		settings->reconstruct.epipolar + settings->reconstruct.epipolar_size * (left->radius + right->radius);
+	if (!(std::abs(epipolar_distance(rig->camera, pair)) <= reach) || !triangulate(rig->camera, pair, position))
+		return PONG_NONE;
+	for (int side = 0; side < 2; side++)
+		if (!size_agrees(rig->camera[side], position, rig->ball.diameter, centre[side],
+				 settings->reconstruct.size))
+			return PONG_NONE;
+	store(position, point->position);
+	store(point_covariance(rig->camera, centre, position), point->covariance);
+	return PONG_FOUND;
+}
