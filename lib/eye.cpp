@@ -244,8 +244,8 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 void check_size(const pong_camera &camera, const pong_image &image, const char *name)
 {
 	if (image.width != camera.width || image.height != camera.height)
-		throw Fault{PONG_ERROR_VALUE, format("the %s picture is %d x %d, its camera in the rig %d x %d", name,
-						     image.width, image.height, camera.width, camera.height)};
+		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d", name,
+						       image.width, image.height, camera.width, camera.height)};
 }
 
 int push(pong_eye &eye, int64_t utime, int64_t frame, const pong_image image[2], pong_sight *sight)

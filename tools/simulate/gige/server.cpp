@@ -1,0 +1,148 @@
+// One thread serves all control ports and watches the trigger line; each camera exposes in a thread of its own. They
+// agree on when a pulse comes because the line's times are known beforehand.
+#include "server.hpp"
+
+#include <poll.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+
+#include "camera.hpp"
+#include "clock.hpp"
+#include "program.hpp"
+
+namespace gige
+{
+
+namespace
+{
+
+constexpr Endpoint broadcast = {0xffffffff, gvcp::port};
+constexpr int64_t longest_wait = 50000000; // heartbeats and requests to stop are looked at as often, ns
+constexpr int64_t lead = 20000000;         // from the last camera's start to the first pulse, ns
+constexpr int64_t linger = 500000000;      // after the last pulse: its picture, and packets asked for again, ns
+
+bool waits_for_line(const Acquisition &acquisition)
+{
+	return acquisition.session && acquisition.is_triggered && acquisition.by_line;
+}
+
+} // namespace
+
+struct Server::Implementation {
+	Implementation(const ServerSettings &wanted, PictureSource &picture_source);
+
+	void run(int64_t pulses);
+	void serve_until(int64_t time);
+	void answer_discovery();
+	void watch_line();
+	void report(const Pulse &pulse);
+	bool any_waits() const;
+	bool all_wait() const;
+
+	const ServerSettings settings;
+	PictureSource &source;
+	TriggerLine line;
+	std::vector<std::unique_ptr<Camera>> cameras;
+	const UdpSocket discovery_socket;
+	std::vector<pollfd> inputs;
+};
+
+Server::Implementation::Implementation(const ServerSettings &wanted, PictureSource &picture_source)
+	: settings(wanted), source(picture_source), line(wanted.rate, monotonic_now()), discovery_socket(broadcast)
+{
+	for (size_t i = 0; i < settings.cameras.size(); i++) {
+		cameras.push_back(std::make_unique<Camera>(settings, static_cast<int>(i), line, source));
+		inputs.push_back({cameras.back()->control_descriptor(), POLLIN, 0});
+	}
+	inputs.push_back({discovery_socket.descriptor(), POLLIN, 0});
+}
+
+void Server::Implementation::run(int64_t pulses)
+{
+	prctl(PR_SET_TIMERSLACK, 1000); // ns
+	line.end_at(pulses);
+	for (const auto &camera : cameras)
+		camera->power_up();
+	while (!pong::stop_requested() && !line.has_ended()) {
+		const int64_t patience = monotonic_now() + longest_wait;
+		serve_until(std::min(patience, line.next_time().value_or(patience)));
+		watch_line();
+	}
+	const int64_t end = monotonic_now() + linger;
+	while (!pong::stop_requested() && monotonic_now() < end)
+		serve_until(end);
+	for (const auto &camera : cameras)
+		camera->power_down();
+}
+
+// Serve one round of datagrams, or sleep until `time` where none comes.
+void Server::Implementation::serve_until(int64_t time)
+{
+	const int64_t wait = std::clamp<int64_t>(time - monotonic_now(), 0, longest_wait);
+	const timespec timeout = {0, wait};
+	if (ppoll(inputs.data(), inputs.size(), &timeout, nullptr) > 0) {
+		for (const auto &camera : cameras)
+			camera->serve();
+		answer_discovery();
+	}
+	for (const auto &camera : cameras)
+		camera->control().check_heartbeat(monotonic_now());
+}
+
+void Server::Implementation::answer_discovery()
+{
+	Bytes datagram;
+	Endpoint from;
+	while (discovery_socket.receive(datagram, from))
+		for (const auto &camera : cameras)
+			camera->answer_discovery(datagram, from);
+}
+
+// The line pulses from when every camera that has a client waits for it, until none does.
+void Server::Implementation::watch_line()
+{
+	while (const std::optional<Pulse> pulse = line.take(monotonic_now()))
+		report(*pulse);
+	if (line.is_running() && !any_waits()) {
+		line.stop();
+	} else if (!line.is_running() && all_wait()) {
+		line.start(monotonic_now() + lead);
+		for (const auto &camera : cameras)
+			camera->control().notify();
+	}
+}
+
+// The middle is that of the first camera's exposure, should a client have set them differently.
+void Server::Implementation::report(const Pulse &pulse)
+{
+	const double exposure = cameras.front()->control().acquisition().exposure;
+	source.exposed(pulse.number, monotonic_to_realtime(pulse.time + nanoseconds(exposure / 2)) / 1000);
+}
+
+bool Server::Implementation::any_waits() const
+{
+	return std::any_of(cameras.begin(), cameras.end(),
+			   [](const auto &camera) { return waits_for_line(camera->control().acquisition()); });
+}
+
+bool Server::Implementation::all_wait() const
+{
+	return any_waits() && std::all_of(cameras.begin(), cameras.end(), [](const auto &camera) {
+		       return !camera->control().is_controlled() || waits_for_line(camera->control().acquisition());
+	       });
+}
+
+Server::Server(const ServerSettings &settings, PictureSource &source)
+	: implementation_(std::make_unique<Implementation>(settings, source))
+{
+}
+
+Server::~Server() = default;
+
+void Server::run(int64_t pulses)
+{
+	implementation_->run(pulses);
+}
+
+} // namespace gige
