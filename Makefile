@@ -22,6 +22,9 @@ PACKAGES_bench    := eigen3
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 
+# The benchmark flies the simulator's balls before the simulator's cameras.
+BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o)
+
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
 	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2
@@ -105,12 +108,12 @@ objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell f
 define program
 $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
 	@mkdir -p $$(@D)
-	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
+	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
 
 $(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
 
-$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
+$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(BORROWED_$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
 	@mkdir -p $$(@D)
 	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
@@ -129,7 +132,7 @@ UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) 
 	$(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.c))
 TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
 TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
-TEST_INCLUDES := -I. -I$(BUILD)/lcmtypes $(addprefix -Itools/,common $(PROGRAMS))
+TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -Itools/,common $(PROGRAMS))
 
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
