@@ -118,7 +118,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->track.state = profile == PONG_PAPER ? PONG_STATE_TWO_HALVES : PONG_STATE_FLIGHT;
 	settings->track.gate = 0.15;
 	settings->track.gate_rate = 2;
-	settings->track.lost = 0.1;
+	settings->track.lost = profile == PONG_PAPER ? 0.1 : 0.6;
 	settings->track.speed = 40;
 	settings->predict.method = profile == PONG_PAPER ? PONG_PREDICT_EULER : PONG_PREDICT_SPIN;
 	settings->predict.step = 0.001;
