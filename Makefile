@@ -14,7 +14,7 @@ LIB := error document rig camera settings region detect locate reconstruct fligh
 	outlook predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := track simulate bench
+PROGRAMS := track predict simulate bench
 PACKAGES_lib      := eigen3
 PACKAGES_track    := aravis-0.8 lcm
 PACKAGES_simulate := eigen3
