@@ -10,10 +10,12 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference detect_double detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight track predict window eye
+LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference \
+	detect_double detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight physics \
+	trajectory estimate halves track outlook predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := track simulate bench
+PROGRAMS := track predict simulate bench
 PACKAGES_lib      := eigen3
 PACKAGES_track    := aravis-0.8 lcm
 PACKAGES_simulate := eigen3
@@ -21,6 +23,9 @@ PACKAGES_bench    := eigen3
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+
+# The benchmark flies the simulator's balls before the simulator's cameras.
+BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
@@ -111,12 +116,12 @@ objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell f
 define program
 $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
 	@mkdir -p $$(@D)
-	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
+	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
 
 $(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
 
-$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
+$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(BORROWED_$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
 	@mkdir -p $$(@D)
 	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
@@ -136,7 +141,7 @@ UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) 
 TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
 TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
 # Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
-TEST_INCLUDES := -I. -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
+TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)

@@ -10,4 +10,7 @@ int score(int argc, char **argv);
 // Draw one flight.
 int draw(int argc, char **argv);
 
+// Predict simulated launches, by the library and by rivals, beside the Cramer-Rao bound.
+int prediction(int argc, char **argv);
+
 } // namespace bench
