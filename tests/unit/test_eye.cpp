@@ -108,7 +108,7 @@ public:
 	long allocated = 0;
 
 private:
-	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1, -6};
+	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1.6, -6};
 	pong_rig rig_;
 	std::unique_ptr<pong_eye, Freed> eye_;
 	double position_[3], velocity_[3];
