@@ -29,7 +29,7 @@ BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
-	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2
+	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2 netpbm
 
 OPTIMISE ?= -O3 -g
 WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
@@ -156,11 +156,23 @@ $(BUILD)/tests/unit: $(UNIT_OBJECTS) $(TOOL_OBJECTS) $(COMMON_OBJECTS) $(BUILD)/
 	$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
 	    -lgtest -lgtest_main -pthread -o $@
 
+# Programs that the scripts use.
+$(BUILD)/tests/lcm_listener: $(BUILD)/obj/tests/sim/lcm_listener.o $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,lcm) -o $@
+
+$(BUILD)/tests/gige_aravis: $(BUILD)/obj/tests/sim/test_gige_aravis.o \
+    $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/simulate/gige/*.cpp)) $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
+
+SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
+
 .PHONY: test check
 test: deps
 	$(MAKE) check
 
-check: all $(BUILD)/tests/unit
+check: all $(BUILD)/tests/unit $(SIM_PROGRAMS)
 	BUILD=$(BUILD) tests/run
 
 # --- Demo, installation
@@ -188,6 +200,37 @@ install: all
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-.PHONY: clean
+# --- The rest
+
+.PHONY: help sanitize tsan format lint clean
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
+	@echo "  make check      the tests, without installing anything"
+	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer"
+	@echo "  make tsan       the unit tests under ThreadSanitizer"
+	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
+	@echo "  make clean      remove build/"
+	@echo "  CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler, another folder, warnings are errors"
+
+sanitize:
+	$(MAKE) check BUILD=$(BUILD)-asan SANITIZE=address,undefined OPTIMISE='-O1 -g'
+
+tsan:
+	$(MAKE) $(BUILD)-tsan/tests/unit BUILD=$(BUILD)-tsan SANITIZE=thread OPTIMISE='-O1 -g'
+	$(BUILD)-tsan/tests/unit
+
+SOURCES := $(shell git ls-files '*.cpp' '*.hpp' '*.c' '*.h' 2>/dev/null)
+
+format:
+	clang-format -i $(SOURCES)
+
+lint:
+	clang-format --dry-run -Werror $(SOURCES)
+	clang-tidy --quiet $(filter lib/%.cpp,$(SOURCES)) -- -std=c++17 -Ilib $(call cflags,$(PACKAGES_lib))
+
+# What a variable of this file is: make print-LIB.
+print-%:
+	@echo $($*)
+
 clean:
 	rm -rf $(BUILD)
