@@ -125,3 +125,5 @@ $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 .PHONY: clean
 clean:
 	rm -rf $(BUILD)
+
+-include trigger/build.mk
