@@ -4,7 +4,30 @@
 #   make test-trigger    the firmware in simavr, and pongeye-trigger against it
 #   make test-hil        pongeye-trigger in a virtual machine, with Debian's kernel, GPIO lines and USB
 
-TRIGGER_DEBIAN_PACKAGES := gcc-avr avr-libc libsimavr-dev libelf-dev libgtest-dev
+TRIGGER_DEBIAN_PACKAGES := gcc-avr avr-libc libsimavr-dev libelf-dev libumockdev-dev umockdev libgtest-dev \
+	libusb-1.0-0-dev libgpiod-dev liblcm-dev liblcm-bin pkg-config
+
+# --- The program. libgpiod's version decides which of two files speaks to it.
+
+TRIGGER_PACKAGES := libusb-1.0 libgpiod lcm
+GPIOD_VERSION = $(if $(filter 1.%,$(shell pkg-config --modversion libgpiod)),1,2)
+TRIGGER_SOURCES = $(filter-out trigger/main.cpp trigger/gpio_lines_v%.cpp,$(wildcard trigger/*.cpp))
+TRIGGER_OBJECTS = $(TRIGGER_SOURCES:%.cpp=$(BUILD)/obj/%.o) $(BUILD)/obj/trigger/gpio_lines_v$(GPIOD_VERSION).o
+
+DEBIAN_PACKAGES += libusb-1.0-0-dev libgpiod-dev
+all: $(BUILD)/bin/pongeye-trigger
+
+.SECONDARY: $(LCM_HPP)
+$(BUILD)/obj/trigger/%.o: trigger/%.cpp | $(LCM_HPP)
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itrigger \
+	    $(call cflags,$(TRIGGER_PACKAGES)) -c $< -o $@
+
+# Which objects it needs is asked only now, after libgpiod may have been installed.
+.SECONDEXPANSION:
+$(BUILD)/bin/pongeye-trigger: $(BUILD)/obj/trigger/main.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -pthread -o $@
 
 # --- The firmware
 
@@ -32,18 +55,36 @@ flash: $(FIRMWARE).hex
 
 # --- Tests. They alone link simavr, which is under the GPL.
 
-TRIGGER_TESTS := $(BUILD)/tests/trigger/test_firmware
+TRIGGER_TESTS := parts firmware usb pwm
+TRIGGER_TEST_PROGRAMS := $(TRIGGER_TESTS:%=$(BUILD)/tests/trigger/test_%)
+EMULATED_CLOCK := $(BUILD)/tests/trigger/emulated_clock.so
 
-$(BUILD)/obj/tests/trigger/%.o: tests/trigger/%.cpp
+$(BUILD)/obj/tests/trigger/%.o: tests/trigger/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
 
-$(BUILD)/tests/trigger/test_firmware: $(BUILD)/obj/tests/trigger/test_firmware.o $(BUILD)/obj/tests/trigger/board.o
+trigger_test_objects = $(patsubst %,$(BUILD)/obj/tests/trigger/%.o,$(1))
+$(BUILD)/tests/trigger/test_firmware: $(call trigger_test_objects,test_firmware board)
+$(BUILD)/tests/trigger/test_parts: $(BUILD)/obj/tests/trigger/test_parts.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
 	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -lgtest -pthread -o $@
+	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@
+
+$(BUILD)/tests/trigger/test_pwm: $(call trigger_test_objects,test_pwm child)
+$(BUILD)/tests/trigger/test_usb: $(call trigger_test_objects,test_usb board usbfs child)
+$(BUILD)/tests/trigger/test_firmware $(BUILD)/tests/trigger/test_usb $(BUILD)/tests/trigger/test_pwm:
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
+
+$(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
 
 .PHONY: test-trigger
 test-trigger:
 	@$(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(TRIGGER_DEBIAN_PACKAGES)"
-	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(TRIGGER_TESTS)
+	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK)
+	$(BUILD)/tests/trigger/test_parts
 	$(BUILD)/tests/trigger/test_firmware $(FIRMWARE).elf
+	umockdev-wrapper $(BUILD)/tests/trigger/test_usb $(FIRMWARE).elf $(BUILD)/bin/pongeye-trigger \
+	    $(abspath $(EMULATED_CLOCK))
+	umockdev-wrapper $(BUILD)/tests/trigger/test_pwm $(BUILD)/bin/pongeye-trigger
