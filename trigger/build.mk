@@ -88,3 +88,48 @@ test-trigger:
 	umockdev-wrapper $(BUILD)/tests/trigger/test_usb $(FIRMWARE).elf $(BUILD)/bin/pongeye-trigger \
 	    $(abspath $(EMULATED_CLOCK))
 	umockdev-wrapper $(BUILD)/tests/trigger/test_pwm $(BUILD)/bin/pongeye-trigger
+
+# --- Emulated hardware: Debian's kernel in QEMU, with gpio-sim for lines and a board in simavr for USB.
+
+HIL := $(BUILD)/hil
+HIL_DEBIAN_PACKAGES := $(TRIGGER_DEBIAN_PACKAGES) qemu-system-x86 linux-headers-amd64 busybox-static cpio xz-utils
+HIL_PROGRAMS = $(if $(filter 1,$(GPIOD_VERSION)),$(HIL)/pongeye-trigger-gpiod1) $(HIL)/pongeye-trigger-gpiod2
+
+$(HIL)/kernel/vmlinuz: tests/hil/get-kernel
+	tests/hil/get-kernel $(HIL)/kernel
+
+$(HIL)/libgpiod2/pkgconfig/libgpiod.pc: tests/hil/get-libgpiod2
+	tests/hil/get-libgpiod2 $(HIL)/libgpiod2
+
+$(HIL)/pongeye-trigger-gpiod1: $(BUILD)/bin/pongeye-trigger
+	cp $< $@
+
+# Where the machine has libgpiod 1, the same sources once more against 2.
+$(HIL)/pongeye-trigger-gpiod2: $(BUILD)/bin/pongeye-trigger \
+    $$(if $$(filter 1,$$(GPIOD_VERSION)),$(HIL)/libgpiod2/pkgconfig/libgpiod.pc)
+	$(if $(filter 2,$(GPIOD_VERSION)),cp $< $@,$(call with_libgpiod2,$@))
+
+define with_libgpiod2
+	PKG_CONFIG_PATH=$(abspath $(HIL)/libgpiod2/pkgconfig) $(MAKE) --no-print-directory BUILD=$(HIL)/with-libgpiod2 \
+	    LDFLAGS=-Wl,-rpath,'$(abspath $(wildcard $(HIL)/libgpiod2/root/usr/lib/*-linux-gnu))' \
+	    $(HIL)/with-libgpiod2/bin/pongeye-trigger
+	cp $(HIL)/with-libgpiod2/bin/pongeye-trigger $(1)
+endef
+
+$(BUILD)/obj/tests/hil/%.o: tests/hil/%.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
+
+$(HIL)/usbip_device: $(BUILD)/obj/tests/hil/usbip_device.o $(BUILD)/obj/tests/trigger/board.o
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -o $@
+
+$(HIL)/initrd.gz: $(HIL)/kernel/vmlinuz $(FIRMWARE).elf $$(HIL_PROGRAMS) $(HIL)/usbip_device $(wildcard tests/hil/guest-*) \
+    tests/hil/make-initrd
+	tests/hil/make-initrd $@ $(HIL)/kernel/modules $(FIRMWARE).elf $(HIL_PROGRAMS) $(HIL)/usbip_device
+
+.PHONY: test-hil
+test-hil:
+	@$(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(HIL_DEBIAN_PACKAGES)"
+	@$(MAKE) --no-print-directory $(HIL)/initrd.gz
+	tests/hil/run $(HIL)/kernel/vmlinuz $(HIL)/initrd.gz

@@ -99,11 +99,14 @@ bool GpioPort::make_pulse(int64_t due, int64_t number)
 	const int64_t after = monotonic_ns(), edge = before + (after - before) / 2;
 	const double late = static_cast<double>(edge - due) * 1e-9;
 	made_ = number;
-	lateness_.add(late);
 	queue_.push({number, utime_of(edge), 0, late});
 	wake();
-	sleep_until(edge + std::llround(settings_.width * 1e9));
-	return set(false);
+	const int64_t end = edge + std::llround(settings_.width * 1e9);
+	sleep_until(end);
+	const bool good = set(false);
+	const double longer = stopping_ ? 0 : static_cast<double>(monotonic_ns() - end) * 1e-9;
+	lateness_.add(std::max(late, longer));
+	return good;
 }
 
 // Each edge is due at a multiple of the period after the first, whatever happened before: lateness does not add up.
@@ -151,7 +154,8 @@ std::string GpioPort::stop()
 	stopping_ = true;
 	thread_.join();
 	lines_.reset();
-	return format("%lld pulses, %lld late by more than %g us, %lld left out, latest %.1f us; lateness:\n",
+	return format("%lld pulses, %lld late by more than %g us, %lld left out, latest %.1f us; of the later edge of "
+		      "each:\n",
 		      static_cast<long long>(made_), static_cast<long long>(lateness_.late()), Lateness::LATE * 1e6,
 		      static_cast<long long>(skipped_), lateness_.worst() * 1e6) +
 	       lateness_.text();

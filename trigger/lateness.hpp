@@ -11,7 +11,7 @@ namespace pong
 class Lateness
 {
 public:
-	// An edge later than this counts as late: more than a PREEMPT_RT kernel is expected to need, s.
+	// A pulse with an edge later than this counts as late: more than a PREEMPT_RT kernel is expected to need, s.
 	static constexpr double LATE = 200e-6;
 
 	void add(double seconds);
