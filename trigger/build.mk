@@ -64,7 +64,7 @@ $(BUILD)/obj/tests/trigger/%.o: tests/trigger/%.cpp | $(LCM_HPP)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
 
 trigger_test_objects = $(patsubst %,$(BUILD)/obj/tests/trigger/%.o,$(1))
-$(BUILD)/tests/trigger/test_firmware: $(call trigger_test_objects,test_firmware board)
+$(BUILD)/tests/trigger/test_firmware: $(call trigger_test_objects,test_firmware test_firmware_usb board)
 $(BUILD)/tests/trigger/test_parts: $(BUILD)/obj/tests/trigger/test_parts.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
 	@mkdir -p $(@D)
 	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@

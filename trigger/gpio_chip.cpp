@@ -47,7 +47,7 @@ std::string find_chip(const std::string &chip)
 {
 	if (chip.find('/') != std::string::npos)
 		return chip;
-	const std::string file = "/dev/" + std::string(is_number(chip) ? "gpiochip" : "") + chip;
+	std::string file = "/dev/" + std::string(is_number(chip) ? "gpiochip" : "") + chip;
 	if (access(file.c_str(), F_OK) == 0)
 		return file;
 	std::set<std::string> chips;
@@ -68,6 +68,11 @@ void fail_to_open(const std::string &path)
 	if (errno == EACCES || errno == EPERM)
 		throw Failure("no permission for " + path + ": join its group, or see docs/synchronization.md");
 	throw Failure(path + ": " + strerror(errno));
+}
+
+void fail_to_find(const std::string &path, const std::string &line)
+{
+	throw Failure(path + " has no line '" + line + "'");
 }
 
 void fail_to_take(const std::string &path, const std::string &lines)

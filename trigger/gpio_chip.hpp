@@ -12,6 +12,9 @@ std::string chip_label(const std::string &path);
 // The file `path` cannot be opened, for errno's reason.
 [[noreturn]] void fail_to_open(const std::string &path);
 
+// The chip has no such line.
+[[noreturn]] void fail_to_find(const std::string &path, const std::string &line);
+
 // The lines, as the user named them, cannot be taken, for errno's reason.
 [[noreturn]] void fail_to_take(const std::string &path, const std::string &lines);
 

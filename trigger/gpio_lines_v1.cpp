@@ -26,7 +26,7 @@ std::string chip_label(const std::string &path)
 	gpiod_chip *chip = gpiod_chip_open(path.c_str());
 	if (!chip)
 		return "";
-	const std::string label = gpiod_chip_label(chip);
+	std::string label = gpiod_chip_label(chip);
 	gpiod_chip_close(chip);
 	return label;
 }
@@ -44,9 +44,9 @@ GpioLines::GpioLines(const GpioSpec &spec, bool active_low) : handles_(std::make
 		gpiod_line *line = number < 0 ? gpiod_chip_find_line(handles_->chip, name.c_str())
 					      : gpiod_chip_get_line(handles_->chip, static_cast<unsigned>(number));
 		if (!line)
-			throw Failure(path + " has no line '" + name + "'");
+			fail_to_find(path, name);
 		gpiod_line_bulk_add(&handles_->lines, line);
-		names += (names.empty() ? "" : ",") + name;
+		names += names.empty() ? name : "," + name;
 	}
 	const gpiod_line_request_config wanted = {"pongeye-trigger", GPIOD_LINE_REQUEST_DIRECTION_OUTPUT,
 						  active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0};

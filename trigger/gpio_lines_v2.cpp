@@ -38,7 +38,7 @@ std::vector<unsigned> find_lines(gpiod_chip *chip, const std::string &path, cons
 		if (number < 0)
 			number = gpiod_chip_get_line_offset_from_name(chip, name.c_str());
 		if (number < 0 || number >= count)
-			throw Failure(path + " has no line '" + name + "'");
+			fail_to_find(path, name);
 		offsets.push_back(static_cast<unsigned>(number));
 	}
 	return offsets;

@@ -15,7 +15,7 @@
 namespace pong
 {
 
-class GpioPort : public Port
+class GpioPort final : public Port
 {
 public:
 	// Throws UsageError where `text` is not CHIP:LINE[,LINE].

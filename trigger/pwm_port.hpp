@@ -9,7 +9,7 @@
 namespace pong
 {
 
-class PwmPort : public Port
+class PwmPort final : public Port
 {
 public:
 	// Throws UsageError where `text` is not CHIP:CHANNEL, Failure where there is no such chip or channel, or it is

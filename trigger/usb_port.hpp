@@ -11,7 +11,7 @@
 namespace pong
 {
 
-class UsbPort : public Port
+class UsbPort final : public Port
 {
 public:
 	// Throws Failure where there is no such device, or its firmware is of another version.

@@ -26,7 +26,8 @@
 namespace
 {
 
-constexpr uint32_t SUBMIT = 1, UNLINK = 2, SUBMITTED = 3, UNLINKED = 4;
+// Commands; what is not UNLINK is SUBMIT.
+constexpr uint32_t UNLINK = 2, SUBMITTED = 3, UNLINKED = 4;
 constexpr uint32_t FULL_SPEED = 2;
 constexpr uint64_t SLICE = 16'000; // cycles between two looks at the socket
 
