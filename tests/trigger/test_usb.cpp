@@ -149,8 +149,8 @@ TEST_F(UsbPort, SoManyPulsesEachPublishedWithItsTime)
 		const int64_t truth = (EMULATED_EPOCH_NS + host_ns(edges[i])) / 1000;
 		worst = std::max(worst, std::abs(static_cast<double>(published[i].utime - truth)));
 	}
-	// No more than half of a round trip, which takes some 300 us here.
-	EXPECT_LT(worst, 150) << outcome.err;
+	// No more than half of a round trip, which takes 150 us here.
+	EXPECT_LT(worst, 75) << outcome.err;
 
 	// The table: pulses, and the rate by the host's clock.
 	EXPECT_EQ(outcome.out.rfind("# utime pulses rate residual_us lateness_us late\n", 0), 0u);
