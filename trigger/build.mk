@@ -83,6 +83,7 @@ $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
 test-trigger:
 	@$(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(TRIGGER_DEBIAN_PACKAGES)"
 	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK)
+	@! ldd $(BUILD)/bin/pongeye-trigger | grep simavr
 	$(BUILD)/tests/trigger/test_parts
 	$(BUILD)/tests/trigger/test_firmware $(FIRMWARE).elf
 	umockdev-wrapper $(BUILD)/tests/trigger/test_usb $(FIRMWARE).elf $(BUILD)/bin/pongeye-trigger \
