@@ -113,35 +113,31 @@ TEST(GpioSpec, NamesAChipAndOneOrTwoLines)
 		EXPECT_THROW(pong::parse_gpio(bad), pong::UsageError) << bad;
 }
 
-class Heard
-{
-public:
-	void on_trigger(const lcm::ReceiveBuffer *, const std::string &, const pongeye::trigger_t *message)
-	{
-		messages.push_back(*message);
-	}
+using Messages = std::vector<pongeye::trigger_t>;
 
-	std::vector<pongeye::trigger_t> messages;
-};
+void on_trigger(const lcm::ReceiveBuffer *, const std::string &, const pongeye::trigger_t *message, Messages *heard)
+{
+	heard->push_back(*message);
+}
 
 TEST(Publisher, IsHeardByASubscriber)
 {
 	const char *const url = "udpm://239.255.76.68:7868?ttl=0";
 	lcm::LCM lcm(url);
 	ASSERT_TRUE(lcm.good()) << "no multicast: ip route add 224.0.0.0/4 dev lo";
-	Heard heard;
-	lcm.subscribe("PONGEYE_TRIGGER", &Heard::on_trigger, &heard);
+	Messages heard;
+	lcm.subscribeFunction("PONGEYE_TRIGGER", on_trigger, &heard);
 	pong::Publisher publisher(url);
 	publisher.publish({1, 0, 0, NAN}, 110); // its time is not known yet
 	publisher.publish({2, 1'700'000'000'000'000, 12e-6, NAN}, 110);
 	publisher.publish({3, 1'700'000'000'009'090, 12e-6, NAN}, 110);
-	while (heard.messages.size() < 2)
+	while (heard.size() < 2)
 		ASSERT_GT(lcm.handleTimeout(5000), 0);
-	EXPECT_EQ(heard.messages[0].pulse, 2);
-	EXPECT_EQ(heard.messages[0].utime, 1'700'000'000'000'000);
-	EXPECT_EQ(heard.messages[1].pulse, 3);
-	EXPECT_EQ(heard.messages[1].rate, 110);
-	EXPECT_EQ(heard.messages[1].residual, 12e-6);
+	EXPECT_EQ(heard[0].pulse, 2);
+	EXPECT_EQ(heard[0].utime, 1'700'000'000'000'000);
+	EXPECT_EQ(heard[1].pulse, 3);
+	EXPECT_EQ(heard[1].rate, 110);
+	EXPECT_EQ(heard[1].residual, 12e-6);
 	EXPECT_THROW(pong::Publisher("nonsense://"), pong::Failure);
 }
 
