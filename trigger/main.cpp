@@ -25,12 +25,12 @@ struct Arguments {
 const char *const SUMMARY = "Makes the pulses that fire both cameras, and publishes when each came (PONGEYE_TRIGGER).";
 
 const char *const EXAMPLE =
-	"  $ pongeye-trigger --rate 110 --width 0.001 --usb --seconds 3\n"
+	"  $ pongeye-trigger --rate 110 --width 0.001 --count 330 --usb\n"
 	"  # utime pulses rate residual_us lateness_us late\n"
-	"  1760000001000231 110 110.0003 11.2 - -\n"
-	"  1760000002000245 220 110.0002 10.9 - -\n"
-	"  1760000003000238 330 110.0002 11.0 - -\n"
-	"  pongeye-trigger: 330 pulses, fastest round trip 182 us, residual of the clock fit 11.0 us";
+	"  1700000001430163 111 109.9839 7.6 - -\n"
+	"  1700000002429843 221 109.9835 8.0 - -\n"
+	"  1700000003481684 330 109.9836 7.8 - -\n"
+	"  pongeye-trigger: 330 pulses, fastest round trip 150 us, residual of the clock fit 7.7 us";
 
 bool parse(int argc, char **argv, Arguments *to)
 {
