@@ -234,3 +234,5 @@ print-%:
 
 clean:
 	rm -rf $(BUILD)
+
+-include trigger/build.mk
