@@ -10,7 +10,7 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference detect_double detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight track predict window eye
+LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference detect_double detect cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate reconstruct flight track predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track simulate bench
@@ -28,7 +28,7 @@ DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev li
 OPTIMISE ?= -O3 -g
 WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
 SANITIZE_FLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
-COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fvisibility=hidden -MMD -MP -Ilib
+COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fno-math-errno -fno-trapping-math -fvisibility=hidden -MMD -MP -Ilib
 override CFLAGS   += -std=c11 $(COMMON_FLAGS)
 override CXXFLAGS += -std=c++17 $(COMMON_FLAGS)
 override LDFLAGS  += $(SANITIZE_FLAGS)

@@ -151,6 +151,7 @@ typedef enum pong_locate_method {
 	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
 	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
 	PONG_LOCATE_EDGES = 2,    /* a sphere's outline fitted to edges on rays */
+	PONG_LOCATE_PHOTOMETRIC = 3, /* a lit sphere fitted to all pixels */
 } pong_locate_method;
 
 typedef enum pong_state_method {

@@ -87,7 +87,7 @@ void read_settings(const Document &document, pong_settings &settings)
 		settings.detect.gap = static_cast<int>(document.number("detect", "gap", 1, PONG_GAP_MAX));
 	if (document.has("locate", "method"))
 		settings.locate.method = static_cast<pong_locate_method>(
-			read_word(document, "locate", "method", {"gaussian", "centroid", "edges"}));
+			read_word(document, "locate", "method", {"gaussian", "centroid", "edges", "photometric"}));
 	if (document.has("track", "state"))
 		settings.track.state =
 			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves"}));
