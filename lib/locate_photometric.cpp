@@ -23,7 +23,7 @@ const double outside = 3;        // of the outline, how far pixels are looked at
 const double step_width = 1.75;  // half width of the blurred step to start with, px
 const double step_least = 1, step_most = 5;
 const double step_prior = 0.5;   // standard deviation of that guess, px
-const int rounds = 5;
+const int rounds = 8;
 const int plain_rounds = 2;      // without robust weights
 const double converged = 0.003;  // px
 const double farthest = 0.15;    // of a radius, that the fit may move from its start, and
@@ -31,7 +31,9 @@ const double farthest_px = 0.7;  // px
 const float outlier = 3;         // residuals of so many standard deviations count half
 const double background_error = 5; // of an earlier picture that shows what is behind the ball, grey levels
 const int sectors = 16;
-const double shading_prior = 1e-4; // weight of "no shading", so that any picture has a solution
+const int first_curved = 8;         // the first parameter of a shading term of second order
+const double shading_prior = 1000; // standard deviations of the shading's coefficients, grey levels: of the zeroth and
+const double curved_prior = 20;    // first order, and of the second
 const double variance_least = 0.05;
 
 // The plane about a ray: pixels of a camera without distortion that looks along it.
@@ -306,8 +308,12 @@ private:
 			for (int j = i; j < sphere_parameters; j++)
 				normal_(i, j) = normal_(j, i) = *in++;
 		}
-		for (int i = 4; i < sphere_parameters; i++)
-			normal_(i, i) += shading_prior;
+		for (int i = 4; i < sphere_parameters; i++) {
+			const double deviation = i < first_curved ? shading_prior : curved_prior;
+			const double weight = variance_ / (deviation * deviation);
+			normal_(i, i) += weight;
+			right_[i] -= weight * now_.value[i];
+		}
 		normal_(3, 3) += variance_ / (step_prior * step_prior);
 		right_[3] += variance_ / (step_prior * step_prior) * (step_width - now_.blur());
 	}

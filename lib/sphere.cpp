@@ -37,13 +37,6 @@ inline void shading_basis(float x, float y, float z, float *term)
 	term[6] = y * z;
 	term[7] = xx;
 	term[8] = yy;
-	term[9] = xx * x;
-	term[10] = xx * y;
-	term[11] = yy * x;
-	term[12] = yy * y;
-	term[13] = xx * z;
-	term[14] = xy * z;
-	term[15] = yy * z;
 }
 
 // The shade's derivatives by nx, ny, nz, those being taken as independent.
@@ -53,11 +46,8 @@ struct Slope {
 
 inline Slope shade_slope(const float *s, float x, float y, float z)
 {
-	return {s[1] + s[4] * y + s[5] * z + 2 * s[7] * x + 3 * s[9] * x * x + 2 * s[10] * x * y + s[11] * y * y +
-			(2 * s[13] * x + s[14] * y) * z,
-		s[2] + s[4] * x + s[6] * z + 2 * s[8] * y + s[10] * x * x + 2 * s[11] * x * y + 3 * s[12] * y * y +
-			(s[14] * x + 2 * s[15] * y) * z,
-		s[3] + s[5] * x + s[6] * y + s[13] * x * x + s[14] * x * y + s[15] * y * y};
+	return {s[1] + s[4] * y + s[5] * z + 2 * s[7] * x, s[2] + s[4] * x + s[6] * z + 2 * s[8] * y,
+		s[3] + s[5] * x + s[6] * y};
 }
 
 const float facing_least = 0.08f; // of nz: at the outline itself the normal's slope is infinite

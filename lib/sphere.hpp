@@ -6,7 +6,7 @@
 namespace pong
 {
 
-const int shading_terms = 16; // all polynomials of the surface normal up to the third order
+const int shading_terms = 9; // the polynomials of the surface normal up to the second order
 const int sphere_parameters = 4 + shading_terms;
 const int block = 64; // pixels at a time
 
