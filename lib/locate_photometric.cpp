@@ -19,21 +19,22 @@ namespace
 
 const int pixels_max = 2048;
 const int blocks_max = pixels_max / block;
-const double outside = 3;        // of the outline, how far pixels are looked at, px
-const double step_width = 1.75;  // half width of the blurred step to start with, px
+const double outside = 3;       // of the outline, how far pixels are looked at, px
+const double step_width = 1.75; // half width of the blurred step to start with, px
 const double step_least = 1, step_most = 5;
-const double step_prior = 0.5;   // standard deviation of that guess, px
+const double step_prior = 0.5; // standard deviation of that guess, px
 const int rounds = 8;
-const int plain_rounds = 2;      // without robust weights
-const double converged = 0.003;  // px
-const double farthest = 0.15;    // of a radius, that the fit may move from its start, and
-const double farthest_px = 0.7;  // px
-const float outlier = 3;         // residuals of so many standard deviations count half
+const int plain_rounds = 2;        // without robust weights
+const double converged = 0.003;    // px
+const double farthest = 0.3;       // of a radius, that the fit may move from its start, and
+const double farthest_px = 1;      // px
+const float outlier = 3;           // residuals of so many standard deviations count half
 const double background_error = 5; // of an earlier picture that shows what is behind the ball, grey levels
 const int sectors = 16;
-const int first_curved = 8;         // the first parameter of a shading term of second order
+const int first_curved = 8;        // the first parameter of a shading term of second order
 const double shading_prior = 1000; // standard deviations of the shading's coefficients, grey levels: of the zeroth and
 const double curved_prior = 20;    // first order, and of the second
+const double shading_error_part = 0.004; // of a radius: what shading that nine terms can't express does to the centre
 const double variance_least = 0.05;
 
 // The plane about a ray: pixels of a camera without distortion that looks along it.
@@ -86,7 +87,6 @@ struct PlaneMap {
 		return place;
 	}
 };
-
 
 // The pixels that the fit looks at, in blocks; what fills up the last one has no weight.
 struct Pixels {
@@ -294,8 +294,9 @@ private:
 				residual[i] = pixels_.now[b][i] - pixels_.blocks[b].level[i];
 				weight[i] = pixels_.weight[b][i];
 				const float chi2 = weight[i] * residual[i] * residual[i];
+				const float excess = chi2 / (outlier * outlier * static_cast<float>(variance_));
 				if (robust)
-					weight[i] /= 1 + chi2 / (outlier * outlier * static_cast<float>(variance_));
+					weight[i] /= 1 + excess * excess;
 				sum += weight[i] * residual[i] * residual[i];
 				count += pixels_.weight[b][i] > 0;
 			}
@@ -360,7 +361,9 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 	Matrix2 jacobian;
 	for (int axis = 0; axis < 2; axis++)
 		jacobian.col(axis) = plane.to_pixel(camera, place + Vector2::Unit(axis)) - uv;
-	const Matrix2 covariance = jacobian * fit.covariance() * jacobian.transpose();
+	const double shading_error = shading_error_part * radius;
+	const Matrix2 covariance = jacobian * fit.covariance() * jacobian.transpose() +
+				   shading_error * shading_error * Matrix2::Identity();
 	*centre = {uv.x(), uv.y(), found.radius() / plane.frame(2, 2), {}};
 	for (int i = 0; i < 2; i++)
 		for (int j = 0; j < 2; j++)

@@ -3,9 +3,10 @@
 //     level = (1 - cover) background + cover shade(n)
 //
 // cover is a step at the outline, blurred by lens and pixel with the kernel 15/16 (1 - t^2)^2 / h for |t| = |d| / h < 1
-// (close to a Gaussian of standard deviation h / sqrt(7)), d the depth inside of the outline. Its integral, and the integral of
-// that, are polynomials; so is the mean depth of the part of a pixel that is covered, which tells the normal n there.
-// shade is a polynomial of n = (nx, ny, nz), nz towards the camera: light of any kind on a matt sphere is smooth.
+// (close to a Gaussian of standard deviation h / sqrt(7)), d the depth inside of the outline. Its integral, and the
+// integral of that, are polynomials; so is the mean depth of the part of a pixel that is covered, which tells the
+// normal n there. shade is a polynomial of n = (nx, ny, nz), nz towards the camera: light of any kind on a matt sphere
+// is smooth.
 #include "sphere.hpp"
 
 #include <cmath>
@@ -69,7 +70,8 @@ PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak 
 			const float depth = radius - r, t = clamp(depth * per_h, -1, 1), tt = t * t;
 			const float cover = 0.5f + t * (15 - tt * (10 - 3 * tt)) * (1.0f / 16);
 			const float step = (15.0f / 16) * (1 - tt) * (1 - tt) * per_h;
-			const float covered = h * (0.15625f + 0.5f * t + tt * (7.5f - tt * (2.5f - 0.5f * tt)) * (1.0f / 16));
+			const float covered =
+				h * (0.15625f + 0.5f * t + tt * (7.5f - tt * (2.5f - 0.5f * tt)) * (1.0f / 16));
 			const float mean_depth = depth > h ? depth : covered / (cover + 1e-6f);
 			const float e = clamp(1 - mean_depth * per_radius, 0, 1);
 			const float x = e * du * per_r, y = e * dv * per_r, zz = 1 - e * e;
@@ -85,8 +87,7 @@ PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak 
 			pixels->level[i] += part * over;
 			pixels->slope[0][i] += edge * du * per_r + part * per_radius * (by.z * x * per_z - by.x);
 			pixels->slope[1][i] += edge * dv * per_r + part * per_radius * (by.z * y * per_z - by.y);
-			pixels->slope[2][i] +=
-				edge + part * per_radius * (by.z * e * e * per_z - by.x * x - by.y * y);
+			pixels->slope[2][i] += edge + part * per_radius * (by.z * e * e * per_z - by.x * x - by.y * y);
 			pixels->slope[3][i] -= edge * t;
 			for (int k = 0; k < shading_terms; k++)
 				pixels->slope[4 + k][i] += part * term[k];
