@@ -95,12 +95,22 @@ typedef struct pong_ball_spec {
 	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
 	double air_density; /* rho, kg/m^3 */
 	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
+	double magnus;      /* F = magnus spin x velocity, kg */
+	double restitution; /* vertical speed after a bounce over that before it */
+	double friction;    /* mu between ball and table */
+	double grip;        /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
+			       as that of a gripping rubber ball is, by this part */
+	double kick;        /* standard deviation of what a bounce adds to the velocity along the table, m/s */
+	double spin_sigma;  /* of a component of the spin that players give to the ball, rad/s */
+	/* Standard deviations of the coefficients above: from ball to ball, from day to day. */
+	double drag_sigma, magnus_sigma, restitution_sigma, friction_sigma, grip_sigma;
 } pong_ball_spec;
 
 /* Where there is no table there is no bounce, and the whole image is searched. */
 typedef struct pong_table {
 	int present;
 	double length, width; /* m */
+	double net;           /* height of the net, m; 0: there is none */
 } pong_table;
 
 typedef struct pong_rig {
@@ -109,6 +119,9 @@ typedef struct pong_rig {
 	double hit_z;          /* the plane on which the robot hits, m */
 	pong_camera camera[2]; /* by pong_side */
 } pong_rig;
+
+/* Today's ball on today's table, the hit plane at its end, no cameras: enough to track and predict points. */
+PONG_API void pong_rig_defaults(pong_rig *rig);
 
 /* Read rig.toml. On an error *rig is unchanged.
  * Returns PONG_FOUND, PONG_ERROR_FILE, PONG_ERROR_FORMAT or PONG_ERROR_VALUE, with file, line and column in *error. */
@@ -161,7 +174,13 @@ typedef enum pong_reconstruct_method {
 
 typedef enum pong_state_method {
 	PONG_STATE_TWO_HALVES = 0, /* the paper's smoothing, section 6, Fig. 8 */
+	PONG_STATE_FLIGHT = 1,     /* the most probable flight, with spin, through all of its points and its bounces */
 } pong_state_method;
+
+typedef enum pong_predict_method {
+	PONG_PREDICT_EULER = 0, /* the paper's: drag, Euler steps, constant factors at the bounce; section 6 */
+	PONG_PREDICT_SPIN = 1,  /* drag and Magnus force, a bounce with friction, and the covariance of it all */
+} pong_predict_method;
 
 #define PONG_GAP_MAX 64 /* frames */
 
@@ -197,6 +216,7 @@ typedef struct pong_settings {
 		double speed;     /* faster than this no ball flies, m/s */
 	} track;
 	struct {
+		pong_predict_method method;
 		double step;      /* of the Euler integration, s */
 		double horizon;   /* no prediction further ahead than this, s */
 		double path_step; /* of the predicted path, s */
@@ -324,11 +344,31 @@ PONG_API int pong_reconstruct(const pong_rig *rig, const pong_centre *left, cons
  * Track: which points belong to one flight, and the ball's state that follows from them
  */
 
+/* What the full state of a ball is made of, and the place of each part in its covariance. The coefficients are those
+ * of pong_ball_spec, as this flight has shown them; the kick is what its next bounce adds to the velocity along x, z. */
+enum {
+	PONG_STATE_POSITION = 0,
+	PONG_STATE_VELOCITY = 3,
+	PONG_STATE_SPIN = 6,
+	PONG_STATE_DRAG = 9,
+	PONG_STATE_MAGNUS = 10,
+	PONG_STATE_RESTITUTION = 11,
+	PONG_STATE_FRICTION = 12,
+	PONG_STATE_GRIP = 13,
+	PONG_STATE_KICK_X = 14,
+	PONG_STATE_KICK_Z = 15,
+	PONG_STATE_SIZE = 16
+};
+
 /* The ball at one moment. */
 typedef struct pong_state {
 	int64_t utime;
-	double position[3]; /* m */
-	double velocity[3]; /* m/s */
+	double position[3];     /* m */
+	double velocity[3];     /* m/s */
+	int has_spin;           /* whether what follows is known: not from the paper's method */
+	double spin[3];         /* rad/s */
+	double coefficients[7]; /* PONG_STATE_DRAG to PONG_STATE_KICK_Z */
+	double covariance[PONG_STATE_SIZE][PONG_STATE_SIZE];
 } pong_state;
 
 typedef enum pong_track_event {
@@ -369,12 +409,16 @@ PONG_API int pong_track_recent_state(const pong_track *track, pong_state *state)
 
 typedef struct pong_prediction {
 	int64_t utime;               /* of the state that it starts from */
-	int has_hit;                 /* 0: the ball does not come to the hit plane within the horizon */
+	int has_hit;                 /* 0: the ball does not come to the hit plane within the horizon, or not by a way
+					that can be known: it meets the net or the table's edge */
 	pong_state hit;              /* on the hit plane z = rig.hit_z */
 	double hit_covariance[4][4]; /* of x, y, z (m) and time (s); NaN where the method knows none */
 	int has_bounce;
 	pong_state bounce; /* the next bounce on the table: position, and velocity before it */
-	double spin[3];    /* rad/s; NaN where unknown */
+	int has_top;
+	pong_state top; /* the highest point after a bounce to come, for the robot that may choose; where there is a
+			   hit, be it before or behind its plane */
+	double spin[3]; /* rad/s; NaN where unknown */
 	int path_count;    /* the way to the hit, or to the horizon */
 	struct {
 		int64_t utime;

@@ -17,9 +17,31 @@ namespace
 
 const double unbounded = std::numeric_limits<double>::max();
 
-// Today's ball and air; the drag is the middle of what recorded flights show.
-const pong_ball_spec usual_ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-const pong_table usual_table = {1, 2.74, 1.525};
+// Today's ball and air; the coefficients and their spread are what recorded flights show (docs/predict.md).
+pong_ball_spec usual_ball()
+{
+	pong_ball_spec ball = {};
+	ball.diameter = 0.040;
+	ball.mass = 0.0027;
+	ball.drag = 0.50;
+	ball.drag_sigma = 0.05;
+	ball.air_density = 1.2;
+	ball.bounce[0] = ball.bounce[2] = 0.8;
+	ball.bounce[1] = -0.96;
+	ball.magnus = 4.65e-6;
+	ball.magnus_sigma = 0.4e-6;
+	ball.restitution = 0.93;
+	ball.restitution_sigma = 0.02;
+	ball.friction = 0.25;
+	ball.friction_sigma = 0.05;
+	ball.grip = 0;
+	ball.grip_sigma = 0.05;
+	ball.kick = 0.02;
+	ball.spin_sigma = 80;
+	return ball;
+}
+
+const pong_table usual_table = {1, 2.74, 1.525, 0.1525};
 
 void read_number(const Document &document, const char *section, const char *key, double min, double max, double *value)
 {
@@ -27,16 +49,42 @@ void read_number(const Document &document, const char *section, const char *key,
 		*value = document.number(section, key, min, max);
 }
 
+// A coefficient of the flight: its key, its place, and what it may be.
+struct Coefficient {
+	const char *key;
+	double pong_ball_spec::*value;
+	double min, max;
+};
+
+const Coefficient coefficients[] = {
+	{"drag", &pong_ball_spec::drag, 0, 10},
+	{"drag_sigma", &pong_ball_spec::drag_sigma, 0, 10},
+	{"magnus", &pong_ball_spec::magnus, 0, 1},
+	{"magnus_sigma", &pong_ball_spec::magnus_sigma, 0, 1},
+	{"restitution", &pong_ball_spec::restitution, 0, 1},
+	{"restitution_sigma", &pong_ball_spec::restitution_sigma, 0, 1},
+	{"friction", &pong_ball_spec::friction, 0, 10},
+	{"friction_sigma", &pong_ball_spec::friction_sigma, 0, 10},
+	{"grip", &pong_ball_spec::grip, -1, 1},
+	{"grip_sigma", &pong_ball_spec::grip_sigma, 0, 1},
+	{"kick", &pong_ball_spec::kick, 0, 10},
+	{"spin_sigma", &pong_ball_spec::spin_sigma, 0, 10000},
+};
+
 pong_ball_spec read_ball(const Document &document)
 {
-	pong_ball_spec ball = usual_ball;
+	pong_ball_spec ball = usual_ball();
 	if (!document.has_section("ball"))
 		return ball;
-	document.allow_only("ball", {"diameter", "mass", "drag", "air_density", "bounce"});
+	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "magnus",
+				     "magnus_sigma", "restitution", "restitution_sigma", "friction", "friction_sigma",
+				     "grip", "grip_sigma", "kick", "spin_sigma"});
 	read_number(document, "ball", "diameter", 0.001, 1, &ball.diameter);
 	read_number(document, "ball", "mass", 0.0001, 10, &ball.mass);
-	read_number(document, "ball", "drag", 0, 10, &ball.drag);
 	read_number(document, "ball", "air_density", 0, 100, &ball.air_density);
+	for (const Coefficient &coefficient : coefficients)
+		read_number(document, "ball", coefficient.key, coefficient.min, coefficient.max,
+			    &(ball.*coefficient.value));
 	if (document.has("ball", "bounce")) {
 		const auto bounce = document.numbers("ball", "bounce", 3);
 		if (bounce[1] > 0 || bounce[1] < -1)
@@ -50,11 +98,12 @@ pong_ball_spec read_ball(const Document &document)
 pong_table read_table(const Document &document)
 {
 	if (!document.has_section("table"))
-		return {0, 0, 0};
+		return {0, 0, 0, 0};
 	pong_table table = usual_table;
-	document.allow_only("table", {"length", "width"});
+	document.allow_only("table", {"length", "width", "net"});
 	read_number(document, "table", "length", 0.1, 100, &table.length);
 	read_number(document, "table", "width", 0.1, 100, &table.width);
+	read_number(document, "table", "net", 0, 10, &table.net);
 	return table;
 }
 
@@ -152,11 +201,13 @@ std::string write_camera(const pong_camera &camera, const char *section)
 std::string write_rig(const pong_rig &rig)
 {
 	std::string text = "[ball]\ndiameter = " + digits(rig.ball.diameter) + "\nmass = " + digits(rig.ball.mass) +
-			   "\ndrag = " + digits(rig.ball.drag) + "\nair_density = " + digits(rig.ball.air_density) +
+			   "\nair_density = " + digits(rig.ball.air_density) +
 			   "\nbounce = " + list(rig.ball.bounce, 3, 3) + "\n";
+	for (const Coefficient &coefficient : coefficients)
+		text += std::string(coefficient.key) + " = " + digits(rig.ball.*coefficient.value) + "\n";
 	if (rig.table.present)
 		text += "\n[table]\nlength = " + digits(rig.table.length) + "\nwidth = " + digits(rig.table.width) +
-			"\n";
+			"\nnet = " + digits(rig.table.net) + "\n";
 	return text + "\n[hit]\nz = " + digits(rig.hit_z) + "\n" + write_camera(rig.camera[PONG_LEFT], "left") +
 	       write_camera(rig.camera[PONG_RIGHT], "right");
 }
@@ -164,6 +215,13 @@ std::string write_rig(const pong_rig &rig)
 } // namespace
 
 } // namespace pong
+
+void pong_rig_defaults(pong_rig *rig)
+{
+	*rig = {};
+	rig->ball = pong::usual_ball();
+	rig->table = pong::usual_table;
+}
 
 int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error)
 {

@@ -66,7 +66,7 @@ void read_settings(const Document &document, pong_settings &settings)
 		{"locate", {"method", "sigma", "exposure"}},
 		{"reconstruct", {"method", "epipolar", "epipolar_size", "size"}},
 		{"track", {"state", "gate", "gate_rate", "lost", "speed"}},
-		{"predict", {"step", "horizon", "path_step"}},
+		{"predict", {"method", "step", "horizon", "path_step"}},
 		{"window", {"margin", "diameters"}},
 	};
 	for (const auto &[section, keys] : sections)
@@ -93,7 +93,10 @@ void read_settings(const Document &document, pong_settings &settings)
 			read_word(document, "reconstruct", "method", {"linear", "likely"}));
 	if (document.has("track", "state"))
 		settings.track.state =
-			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves"}));
+			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves", "flight"}));
+	if (document.has("predict", "method"))
+		settings.predict.method = static_cast<pong_predict_method>(
+			read_word(document, "predict", "method", {"euler", "spin"}));
 }
 
 } // namespace
@@ -117,11 +120,12 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->reconstruct.epipolar = 1.5;
 	settings->reconstruct.epipolar_size = 0.1;
 	settings->reconstruct.size = 0.35;
-	settings->track.state = PONG_STATE_TWO_HALVES;
+	settings->track.state = profile == PONG_PAPER ? PONG_STATE_TWO_HALVES : PONG_STATE_FLIGHT;
 	settings->track.gate = 0.15;
 	settings->track.gate_rate = 2;
-	settings->track.lost = 0.1;
+	settings->track.lost = profile == PONG_PAPER ? 0.1 : 0.6;
 	settings->track.speed = 40;
+	settings->predict.method = profile == PONG_PAPER ? PONG_PREDICT_EULER : PONG_PREDICT_SPIN;
 	settings->predict.step = 0.001;
 	settings->predict.horizon = 1.5;
 	settings->predict.path_step = 0.02;
