@@ -11,8 +11,8 @@ VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
 LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference \
-	detect_double detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight physics \
-	trajectory estimate halves track outlook predict window eye
+	detect_double detect cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate reconstruct \
+	flight physics trajectory estimate halves track outlook predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track predict simulate bench
@@ -22,10 +22,11 @@ PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
-OPENCV_bench      := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
 # The benchmark flies the simulator's balls before the simulator's cameras.
-BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o)
+BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
+	renderer room scene section sensor sphere texture world)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
@@ -34,7 +35,8 @@ DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev li
 OPTIMISE ?= -O3 -g
 WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
 SANITIZE_FLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
-COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fvisibility=hidden -MMD -MP -Ilib
+COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fno-math-errno -fno-trapping-math \
+	-fvisibility=hidden -MMD -MP -Ilib
 override CFLAGS   += -std=c11 $(COMMON_FLAGS)
 override CXXFLAGS += -std=c++17 $(COMMON_FLAGS)
 override LDFLAGS  += $(SANITIZE_FLAGS)

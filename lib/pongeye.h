@@ -161,10 +161,16 @@ typedef enum pong_detect_method {
 } pong_detect_method;
 
 typedef enum pong_locate_method {
-	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
-	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
-	PONG_LOCATE_EDGES = 2,    /* a sphere's outline fitted to edges on rays */
+	PONG_LOCATE_GAUSSIAN = 0,    /* the paper's log-Gaussian, section 4.3 */
+	PONG_LOCATE_CENTROID = 1,    /* centroid weighted by the difference image */
+	PONG_LOCATE_EDGES = 2,       /* a sphere's outline fitted to edges on rays */
+	PONG_LOCATE_PHOTOMETRIC = 3, /* a lit sphere fitted to all pixels */
 } pong_locate_method;
+
+typedef enum pong_reconstruct_method {
+	PONG_RECONSTRUCT_LINEAR = 0, /* the paper's linear least squares */
+	PONG_RECONSTRUCT_LIKELY = 1, /* the most likely point by both centres' covariances */
+} pong_reconstruct_method;
 
 typedef enum pong_state_method {
 	PONG_STATE_TWO_HALVES = 0, /* the paper's smoothing, section 6, Fig. 8 */
@@ -196,6 +202,7 @@ typedef struct pong_settings {
 		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown */
 	} locate;
 	struct {
+		pong_reconstruct_method method;
 		double epipolar;      /* a pair's centres lie at most this far from each other's epipolar lines, px; */
 		double epipolar_size; /* and this part of the ball's diameter farther: the larger the ball, the larger
 					 are the errors of its centre */
