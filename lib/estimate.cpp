@@ -39,7 +39,7 @@ Parameters usual_parameters(const pong_ball_spec &ball)
 Parameters usual_sigmas(const pong_ball_spec &ball)
 {
 	Parameters sigmas;
-	sigmas << Vector3::Constant(position_sigma), velocity_sigma, Vector3::Constant(ball.spin_sigma), ball.drag_sigma,
+	sigmas << Vector3::Constant(position_sigma), velocity_sigma, vector_of(ball.spin_sigma), ball.drag_sigma,
 		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, ball.kick, ball.kick;
 	return sigmas;
 }

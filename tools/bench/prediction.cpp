@@ -75,9 +75,11 @@ int prediction(int argc, char **argv)
 	for (const double revolutions : {5., 30., 100.}) {
 		settings.spin = revolutions;
 		const Spread spread = spread_of(settings);
-		rig.ball.spin_sigma = spin >= 0 ? spin : spread.spin;
+		std::fill_n(rig.ball.spin_sigma, 3, spin >= 0 ? spin : spread.spin);
 		rig.ball.drag = 0.47;
 		rig.ball.drag_sigma = spread.drag;
+		rig.ball.magnus = 4.65e-6;
+		rig.ball.magnus_saturation = 0;
 		rig.ball.magnus_sigma = spread.magnus;
 		rig.ball.restitution_sigma = spread.restitution;
 		rig.ball.friction_sigma = spread.friction;
