@@ -10,7 +10,7 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region detect locate reconstruct flight physics trajectory estimate halves track \
+LIB := error document rig camera settings region detect locate reconstruct flight physics trajectory noise estimate halves track \
 	outlook predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.

@@ -47,6 +47,7 @@ Physics::Physics(const pong_rig &rig) : radius_(rig.ball.diameter / 2)
 	const double volume = 4.0 / 3 * M_PI * radius_ * radius_ * radius_;
 	drag_factor_ = ball.air_density * section / (2 * ball.mass); // of eq. 18: k = drag_factor C
 	magnus_factor_ = 1 / ball.mass;
+	drag_by_spin_ = drag_factor_ * ball.drag_by_spin * radius_;
 	saturation_ = ball.magnus_saturation * radius_;
 	gravity_ = standard_gravity * (1 - ball.air_density * volume / ball.mass); // eq. 17, 19
 }
@@ -58,7 +59,8 @@ Vector3 Physics::acceleration(const Parameters &parameters, const Motion &motion
 	const Vector3 &v = motion.velocity;
 	const double speed = v.norm() + least_speed;
 	const double q = speed / (speed + saturation_ * motion.spin.norm());
-	return -drag_factor_ * parameters[PONG_STATE_DRAG] * speed * v +
+	const double k = drag_factor_ * parameters[PONG_STATE_DRAG] * speed + drag_by_spin_ * motion.spin.norm();
+	return -k * v +
 	       magnus_factor_ * parameters[PONG_STATE_MAGNUS] * q * motion.spin.cross(v) - Vector3(0, gravity_, 0);
 }
 
@@ -87,12 +89,14 @@ void Physics::step(const Parameters &parameters, double duration, Motion &motion
 		const Rates v_rates = motion.velocity_rates + part[stage] * a_rates;
 		const double speed = v.norm() + least_speed, q = speed / (speed + surface);
 		const Vector3 turn = q * motion.spin.cross(v);
-		a = -k * speed * v + m * turn - Vector3(0, gravity_, 0);
+		const double drag = k * speed + drag_by_spin_ * spin;
+		a = -drag * v + m * turn - Vector3(0, gravity_, 0);
 		const Matrix3 by_velocity =
-			m * q * cross_matrix(motion.spin) - k * speed * Matrix3::Identity() +
+			m * q * cross_matrix(motion.spin) - drag * Matrix3::Identity() +
 			(m * surface / (speed * (speed + surface)) * turn - k * v) * v.transpose() / speed;
 		const Matrix3 by_spin = -m * q * cross_matrix(v) -
-					m * saturation_ / ((speed + surface) * spin) * turn * motion.spin.transpose();
+					(m * saturation_ / (speed + surface) * turn + drag_by_spin_ * v) *
+						motion.spin.transpose() / spin;
 		a_rates.noalias() = by_velocity.lazyProduct(v_rates);
 		a_rates += by_spin.lazyProduct(spin_part);
 		a_rates.col(PONG_STATE_DRAG) -= drag_factor_ * speed * v;

@@ -95,8 +95,8 @@ typedef struct pong_ball_spec {
 	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
 	double air_density; /* rho, kg/m^3 */
 	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
-	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg; S is the speed of the
-			       ball's surface over that of its flight */
+	double drag_by_spin; /* what S, the speed of the ball's surface over that of its flight, adds to the drag's C */
+	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
 	double magnus_saturation;
 	double restitution; /* vertical speed after a bounce over that before it */
 	double friction;    /* mu between ball and table */
@@ -211,6 +211,8 @@ typedef struct pong_settings {
 		double gate_rate; /* and this much farther for every second since the last point, m/s */
 		double lost;      /* a ball not seen for this long is lost, s */
 		double speed;     /* faster than this no ball flies, m/s */
+		double noise;     /* standard deviation of what neighbouring points err alike with, m; for points
+				     without covariance, whose scatter is found out from themselves */
 	} track;
 	struct {
 		pong_predict_method method;
@@ -310,7 +312,7 @@ typedef struct pong_point {
 	int64_t utime;
 	int64_t frame;
 	double position[3];
-	double covariance[3][3]; /* m^2 */
+	double covariance[3][3]; /* m^2; all zero where unknown: the best profile then finds it out */
 } pong_point;
 
 /* The fundamental matrix F of ideal (undistorted) pixels: right' F left = 0 (paper, appendix). */

@@ -23,23 +23,24 @@ pong_ball_spec usual_ball()
 	pong_ball_spec ball = {};
 	ball.diameter = 0.040;
 	ball.mass = 0.0027;
-	ball.drag = 0.50;
-	ball.drag_sigma = 0.05;
+	ball.drag = 0.40;
+	ball.drag_by_spin = 0.13;
+	ball.drag_sigma = 0.04;
 	ball.air_density = 1.2;
 	ball.bounce[0] = ball.bounce[2] = 0.8;
 	ball.bounce[1] = -0.96;
 	ball.magnus = 15e-6;
-	ball.magnus_sigma = 1e-6;
+	ball.magnus_sigma = 1.5e-6;
 	ball.magnus_saturation = 2;
 	ball.restitution = 0.93;
-	ball.restitution_sigma = 0.02;
-	ball.friction = 0.25;
-	ball.friction_sigma = 0.05;
-	ball.grip = 0;
-	ball.grip_sigma = 0.05;
+	ball.restitution_sigma = 0.025;
+	ball.friction = 0.257;
+	ball.friction_sigma = 0.04;
+	ball.grip = 0.1;
+	ball.grip_sigma = 0.08;
 	ball.kick = 0.02;
 	ball.spin_sigma[0] = 150;
-	ball.spin_sigma[1] = ball.spin_sigma[2] = 60;
+	ball.spin_sigma[1] = ball.spin_sigma[2] = 40;
 	return ball;
 }
 
@@ -61,6 +62,7 @@ struct Coefficient {
 const Coefficient coefficients[] = {
 	{"drag", &pong_ball_spec::drag, 0, 10},
 	{"drag_sigma", &pong_ball_spec::drag_sigma, 0, 10},
+	{"drag_by_spin", &pong_ball_spec::drag_by_spin, 0, 10},
 	{"magnus", &pong_ball_spec::magnus, 0, 1},
 	{"magnus_saturation", &pong_ball_spec::magnus_saturation, 0, 100},
 	{"magnus_sigma", &pong_ball_spec::magnus_sigma, 0, 1},
@@ -78,7 +80,7 @@ pong_ball_spec read_ball(const Document &document)
 	pong_ball_spec ball = usual_ball();
 	if (!document.has_section("ball"))
 		return ball;
-	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "magnus",
+	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "drag_by_spin", "magnus",
 				     "magnus_sigma", "magnus_saturation", "restitution", "restitution_sigma", "friction", "friction_sigma",
 				     "grip", "grip_sigma", "kick", "spin_sigma"});
 	read_number(document, "ball", "diameter", 0.001, 1, &ball.diameter);

@@ -142,7 +142,6 @@ int run(int argc, char **argv)
 	Arguments arguments;
 	if (!parse(argc, argv, arguments))
 		return 0;
-	if (arguments.noise == 0) arguments.noise = 0.002;
 	pong_rig rig;
 	pong_settings settings;
 	pong_error error;
