@@ -32,15 +32,15 @@ pong_ball_spec usual_ball()
 	ball.magnus = 15e-6;
 	ball.magnus_sigma = 1.5e-6;
 	ball.magnus_saturation = 2;
-	ball.restitution = 0.93;
-	ball.restitution_sigma = 0.025;
+	ball.restitution = 0.92;
+	ball.restitution_sigma = 0.03;
 	ball.friction = 0.257;
 	ball.friction_sigma = 0.04;
-	ball.grip = 0.1;
-	ball.grip_sigma = 0.08;
+	ball.grip = 0.15;
+	ball.grip_sigma = 0.1;
 	ball.kick = 0.02;
 	ball.spin_sigma[0] = 150;
-	ball.spin_sigma[1] = ball.spin_sigma[2] = 40;
+	ball.spin_sigma[1] = ball.spin_sigma[2] = 50;
 	return ball;
 }
 
