@@ -10,8 +10,9 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region detect locate reconstruct flight physics trajectory noise estimate halves track \
-	outlook predict window eye
+LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference \
+	detect_double detect cone locate_gaussian locate_centroid locate_edges locate reconstruct flight physics \
+	trajectory noise estimate halves track outlook predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track predict simulate bench
@@ -21,6 +22,7 @@ PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 
 # The benchmark flies the simulator's balls before the simulator's cameras.
 BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o)
@@ -43,7 +45,7 @@ cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
 libs   = $(if $(1),$(shell pkg-config --libs $(1)))
 
 .PHONY: all
-all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/pongeye.jar \
+all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/libpongeye-lcmtypes.a $(BUILD)/lib/pongeye.jar \
      $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy
 
 # --- Dependencies
@@ -87,6 +89,12 @@ $(BUILD)/lcmtypes/pongeye/%.hpp: lcmtypes/%.lcm
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(BUILD)/lcmtypes $<
 	lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
 	@test -s $@
+
+# For robots in C: the messages' encoders, to be linked with lcm.
+$(BUILD)/lib/libpongeye-lcmtypes.a: $(LCM_HPP)
+	@mkdir -p $(@D)
+	cd $(BUILD)/lcmtypes/c && $(CC) -std=gnu11 -O2 -fPIC $(call cflags,lcm) -c *.c
+	$(AR) rcs $@ $(BUILD)/lcmtypes/c/*.o
 
 $(BUILD)/lib/pongeye.jar: $(LCMTYPES)
 	@mkdir -p $(BUILD)/lcmtypes/java/classes $(@D)
@@ -132,7 +140,8 @@ UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) 
 	$(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.c))
 TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
 TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
-TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -Itools/,common $(PROGRAMS))
+# Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
+TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
@@ -153,6 +162,29 @@ test: deps
 
 check: all $(BUILD)/tests/unit
 	BUILD=$(BUILD) tests/run
+
+# --- Demo, installation
+
+.PHONY: demo install
+demo: deps
+	$(MAKE) all
+	BUILD=$(BUILD) tools/demo/pongeye-demo
+
+INSTALL_DIR := $(DESTDIR)$(PREFIX)
+
+install: all
+	install -d $(addprefix $(INSTALL_DIR)/,bin include/pongeye lib/pkgconfig share/java share/pongeye/lcmtypes)
+	install -m 755 $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy $(INSTALL_DIR)/bin
+	install -m 644 lib/pongeye.h $(INSTALL_DIR)/include
+	install -m 644 $(BUILD)/lcmtypes/c/*.h $(LCM_HPP) $(INSTALL_DIR)/include/pongeye
+	install -m 644 $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye-lcmtypes.a $(INSTALL_DIR)/lib
+	install -m 755 $(BUILD)/lib/libpongeye.so $(INSTALL_DIR)/lib/libpongeye.so.$(VERSION)
+	ln -sf libpongeye.so.$(VERSION) $(INSTALL_DIR)/lib/libpongeye.so.0
+	ln -sf libpongeye.so.0 $(INSTALL_DIR)/lib/libpongeye.so
+	install -m 644 $(BUILD)/lib/pongeye.jar $(INSTALL_DIR)/share/java
+	install -m 644 $(LCMTYPES) $(INSTALL_DIR)/share/pongeye/lcmtypes
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' lib/pongeye.pc.in >$(INSTALL_DIR)/lib/pkgconfig/pongeye.pc
+	$(if $(DESTDIR),,-ldconfig 2>/dev/null)
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 

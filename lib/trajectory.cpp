@@ -45,8 +45,11 @@ void Trajectory::end_at_contact()
 	const double time = time_at(1, physics_.radius());
 	if (!over_table(position(time)))
 		return;
-	end_ = motion(time);
-	ends_on_table_ = end_.velocity.y() < 0;
+	const Motion contact = motion(time);
+	if (contact.velocity.y() >= 0)
+		return; // it lies on the table already
+	end_ = contact;
+	ends_on_table_ = true;
 }
 
 bool Trajectory::over_table(const Vector3 &position) const

@@ -7,6 +7,9 @@ namespace bench
 // Score a tracker's output against a simulator's truth.
 int score(int argc, char **argv);
 
+// Draw one flight.
+int draw(int argc, char **argv);
+
 // Predict simulated launches, by the library and by rivals, beside the Cramer-Rao bound.
 int prediction(int argc, char **argv);
 

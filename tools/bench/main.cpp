@@ -14,6 +14,7 @@ const struct {
 	int (*run)(int argc, char **argv);
 } commands[] = {
 	{"score", "score a tracker's output against a simulator's truth", bench::score},
+	{"draw", "draw one flight, as the camera saw it and from the side", bench::draw},
 	{"prediction", "predict simulated launches, beside the paper's way and the bound", bench::prediction},
 };
 

@@ -9,8 +9,8 @@ namespace sim
 namespace
 {
 
-constexpr double gravity = 9.80665;   // m/s^2
-constexpr double air_density = 1.2;   // kg/m^3
+constexpr double gravity = 9.80665; // m/s^2
+constexpr double air_density = 1.2; // kg/m^3
 constexpr double ball_area = M_PI * ball_radius * ball_radius;
 constexpr double ball_volume = 4.0 / 3 * M_PI * ball_radius * ball_radius * ball_radius;
 

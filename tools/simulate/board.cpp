@@ -70,9 +70,9 @@ BoardPose draw_tilted(const BoardSettings &settings, const Rig &rig, std::mt1993
 		const double depth = size * rig[0].focal / rig[0].width * (1.9 + 0.7 * unit(random)) + attempt * 0.002;
 		const double tilt = (30 + 12 * unit(random)) * M_PI / 180, about = M_PI * unit(random);
 		const double roll = 15 * M_PI / 180 * unit(random);
-		const Matrix3d turned =
-			(Eigen::AngleAxisd(tilt, Vector3d(std::cos(about), std::sin(about), 0)) *
-			 Eigen::AngleAxisd(roll, Vector3d::UnitZ())).toRotationMatrix();
+		const Matrix3d turned = (Eigen::AngleAxisd(tilt, Vector3d(std::cos(about), std::sin(about), 0)) *
+					 Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
+						.toRotationMatrix();
 		const Vector3d middle = between + depth * direction(rig, 0.6 * unit(random), 0.6 * unit(random));
 		pose = centred(settings, rig[0].R_cam_table.transpose() * turned, middle);
 		if (in_view(settings, pose, rig))
@@ -130,7 +130,8 @@ bool look_at_board(const BoardSettings &settings, const BoardPose &pose, const R
 	const Vector3d on_board =
 		pose.R_table_board.transpose() * (ray.origin + t * ray.direction - pose.origin) / settings.square;
 	const double x = on_board.x(), y = on_board.y();
-	if (!(t > 0) || x < -margin || y < -margin || x > settings.columns - 1 + margin || y > settings.rows - 1 + margin)
+	if (!(t > 0) || x < -margin || y < -margin || x > settings.columns - 1 + margin ||
+	    y > settings.rows - 1 + margin)
 		return false;
 	const bool in_squares = x >= -1 && y >= -1 && x < settings.columns && y < settings.rows;
 	const bool odd = (static_cast<int>(std::floor(x)) + static_cast<int>(std::floor(y))) & 1;

@@ -17,7 +17,7 @@ struct Camera {
 	double focal;                  // px
 	Eigen::Vector2d principal;     // px
 	Eigen::Matrix3d R_cam_table;
-	Eigen::Vector3d centre;               // of projection, table frame, m
+	Eigen::Vector3d centre;                // of projection, table frame, m
 	std::array<double, 5> distortion = {}; // OpenCV's k1 k2 p1 p2 k3
 
 	Eigen::Vector3d to_camera(const Eigen::Vector3d &point) const;

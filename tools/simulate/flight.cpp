@@ -12,8 +12,8 @@ namespace sim
 namespace
 {
 
-constexpr double step = 0.002;    // between samples, s: a cubic between them is good to a nanometre
-constexpr double longest = 3.0;   // no flight takes longer, s
+constexpr double step = 0.002;  // between samples, s: a cubic between them is good to a nanometre
+constexpr double longest = 3.0; // no flight takes longer, s
 
 bool touches_table(const Ball &ball)
 {

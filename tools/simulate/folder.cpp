@@ -30,8 +30,8 @@ public:
 	void take(int64_t frame, double time, const Episode *episode)
 	{
 		renderer_.render(episode, {time, duration_, static_cast<uint64_t>(frame)}, picture_.data);
-		const std::string name = pong::format("%s/%06lld-%s.png", path_.c_str(),
-						      static_cast<long long>(frame), side_);
+		const std::string name =
+			pong::format("%s/%06lld-%s.png", path_.c_str(), static_cast<long long>(frame), side_);
 		if (!cv::imwrite(name, picture_, {cv::IMWRITE_PNG_COMPRESSION, 1}))
 			throw pong::Failure(name + ": cannot write");
 	}
@@ -54,7 +54,7 @@ void make_folder(const std::string &path)
 
 } // namespace
 
-void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed)
+int64_t write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed)
 {
 	make_folder(settings.path);
 	const Rig rig = make_rig(scene.rig);
@@ -65,7 +65,8 @@ void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t s
 		boards.emplace(settings.path + "/boards.txt");
 	World world(scene, rig, seed, settings.rate, 1);
 	Photographer left(settings, scene, rig[0], seed, 0), right(settings, scene, rig[1], seed, 1);
-	for (int64_t frame = 0; frame < settings.frames && !pong::stop_requested(); frame++) {
+	int64_t frame = 0;
+	for (; frame < settings.frames && !pong::stop_requested(); frame++) {
 		const double time = static_cast<double>(frame) / settings.rate;
 		const int64_t utime = std::llround(1e6 * time);
 		const auto episode = world.at(time);
@@ -78,6 +79,7 @@ void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t s
 			pong::say(pong::format("%lld of %lld frames", static_cast<long long>(frame + 1),
 					       static_cast<long long>(settings.frames)));
 	}
+	return frame;
 }
 
 } // namespace sim

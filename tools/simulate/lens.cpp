@@ -56,7 +56,8 @@ Rect with_margin(const Rect &a, int margin)
 }
 
 Lens::Lens(const Camera &camera, double blur)
-	: camera_(camera), margin_(static_cast<int>(std::ceil(3.5 * blur))), R_table_cam_(camera.R_cam_table.transpose())
+	: camera_(camera), margin_(static_cast<int>(std::ceil(3.5 * blur))),
+	  R_table_cam_(camera.R_cam_table.transpose())
 {
 	double sum = 0;
 	for (int i = 0; i < (2 * margin_ + 1) * fine; i++) {

@@ -52,7 +52,7 @@ public:
 private:
 	Camera camera_;
 	int margin_;
-	std::vector<float> weights_; // of the samples from margin_ before a pixel to margin_ behind it
+	std::vector<float> weights_;             // of the samples from margin_ before a pixel to margin_ behind it
 	std::vector<float> corner_x_, corner_y_; // ideal points of the pixels' corners
 	Eigen::Matrix3d R_table_cam_;
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "texture.hpp"
-
 namespace sim
 {
 
@@ -15,18 +13,30 @@ using Eigen::Vector2d;
 
 // How somebody moves, and what they wear.
 struct Person {
-	double x, z, height;        // m
-	double pace, sway;          // steps from side to side: turns/s, m
+	double x, z, height;           // m
+	double pace, sway;             // steps from side to side: turns/s, m
 	double swing, shirt, trousers; // arms: turns/s; clothes: grey levels
-	uint64_t pattern;
+	double pattern;
 };
 
 const Person persons[] = {
-	{-0.62, people_z, 1.60, 0.31, 0.28, 1.1, 118, 30, 11},
-	{0.70, people_z + 0.45, 1.74, 0.23, 0.35, 0.8, 44, 92, 23},
+	{-0.62, people_z, 1.60, 0.31, 0.28, 1.1, 118, 30, 0.1},
+	{0.70, people_z + 0.45, 1.74, 0.23, 0.35, 0.8, 44, 92, 0.6},
 };
 
 constexpr double skin = 140;
+
+// Up and down between -1 and 1 in straight lines, once a unit.
+double wave(double x)
+{
+	return 4 * std::abs(x - std::floor(x) - 0.5) - 1;
+}
+
+// Crossing stripes, two sizes of them.
+double checks(double x, double y)
+{
+	return 0.7 * wave(x) * wave(y) + 0.3 * wave(3.3 * x + 0.4 * y);
+}
 
 Vector2d along(double angle, double length)
 {
@@ -39,7 +49,8 @@ void add_person(const Person &person, double time, std::vector<Limb> *limbs)
 	const Vector2d hip(person.x + person.sway * std::sin(step), floor_y + 0.52 * h);
 	const Vector2d neck = hip + Vector2d(0.03 * std::sin(step + 1), 0.30 * h);
 	const auto add = [&](const Vector2d &from, const Vector2d &to, double radius, double level, double contrast) {
-		limbs->push_back({from, to, person.z, radius, level, contrast, person.pattern + limbs->size()});
+		limbs->push_back({from, to, person.z, radius, level, contrast,
+				  person.pattern + 0.37 * static_cast<double>(limbs->size())});
 	};
 	for (const double side : {-1.0, 1.0}) {
 		const double stride = 0.12 * side + 0.16 * std::sin(step + side);
@@ -69,21 +80,24 @@ std::vector<Limb> limbs_at(double time, int people)
 	return limbs;
 }
 
-double look_at_limb(const Limb &limb, const Ray &ray, double softness, double *level)
+// Cloth hangs on the body: the texture moves with the limb, and its round side falls into shade.
+double look_at_limb(const Limb &limb, const Vector2d &point, double softness, double *level)
+{
+	const Vector2d bone = limb.to - limb.from, p = point - limb.from;
+	const double along_bone = std::clamp(p.dot(bone) / bone.squaredNorm(), 0.0, 1.0);
+	const double off2 = (p - along_bone * bone).squaredNorm(), outside = limb.radius + softness / 2;
+	if (off2 > outside * outside)
+		return 0;
+	const double texture = checks(11 * p.x() + limb.pattern, 9 * p.y());
+	const double shade = 1.05 - 0.35 * off2 / (limb.radius * limb.radius);
+	*level = (limb.level + limb.contrast * texture) * shade;
+	return std::min((limb.radius - std::sqrt(off2)) / softness + 0.5, 1.0);
+}
+
+Vector2d on_plane(const Limb &limb, const Ray &ray)
 {
 	const double t = (limb.z - ray.origin.z()) / ray.direction.z();
-	const Vector2d bone = limb.to - limb.from;
-	const Vector2d p = ray.origin.head<2>() + t * ray.direction.head<2>() - limb.from;
-	const double along_bone = std::clamp(p.dot(bone) / bone.squaredNorm(), 0.0, 1.0);
-	const double off = (p - along_bone * bone).norm();
-	const double cover = std::clamp((limb.radius - off) / softness + 0.5, 0.0, 1.0);
-	if (cover > 0) {
-		// Cloth hangs on the body: the texture moves with the limb, and its round side falls into shade.
-		const double texture = noise(22 * p.x(), 22 * p.y(), limb.pattern);
-		const double round = off / limb.radius;
-		*level = (limb.level + limb.contrast * texture) * (1.05 - 0.35 * round * round);
-	}
-	return cover;
+	return ray.origin.head<2>() + t * ray.direction.head<2>();
 }
 
 } // namespace sim

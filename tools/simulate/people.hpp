@@ -15,7 +15,7 @@ struct Limb {
 	Eigen::Vector2d from, to; // x, y, m
 	double z, radius;         // m
 	double level, contrast;   // grey levels
-	uint64_t pattern;
+	double pattern;           // tells clothes apart
 };
 
 constexpr double people_z = 3.9; // the nearest person stands here, m
@@ -23,8 +23,11 @@ constexpr double people_z = 3.9; // the nearest person stands here, m
 // Far limbs first.
 std::vector<Limb> limbs_at(double time, int people);
 
-// What a ray meets of a limb: how much of it is covered, 0 to 1, where `softness` is the width over which the edge
-// fades, m; and the light there.
-double look_at_limb(const Limb &limb, const Ray &ray, double softness, double *level);
+// What a point (x, y) of a limb's plane shows of it: how much of it is covered, 0 to 1, where `softness` is the width
+// over which the edge fades, m; and the light there.
+double look_at_limb(const Limb &limb, const Eigen::Vector2d &point, double softness, double *level);
+
+// Where a ray comes through the plane that a limb stands in.
+Eigen::Vector2d on_plane(const Limb &limb, const Ray &ray);
 
 } // namespace sim

@@ -56,6 +56,12 @@ Renderer::Renderer(const Scene &scene, const Camera &camera, uint64_t seed, int 
 	  key_(hash(2 * seed + static_cast<uint64_t>(side) + 12345)), light_(backdrop_.light()),
 	  deviation_(backdrop_.deviation())
 {
+	for (int v = 0; v < camera.height; v++)
+		for (int u = 0; u < camera.width; u++) {
+			const Vector3d direction = lens_.pixel_ray(u, v).direction;
+			slope_x_.push_back(static_cast<float>(direction.x() / direction.z()));
+			slope_y_.push_back(static_cast<float>(direction.y() / direction.z()));
+		}
 }
 
 void Renderer::render(const Episode *episode, const Exposure &exposure, uint8_t *pixels)
@@ -101,16 +107,19 @@ Rect Renderer::limb_rect(const Limb &limb) const
 void Renderer::draw_limb(const Limb &limb)
 {
 	const Rect rect = limb_rect(limb);
-	const double softness = 2 * (limb.z - lens_.camera().centre.z()) / lens_.camera().focal;
+	const double distance = limb.z - lens_.camera().centre.z();
+	const double softness = 2 * distance / lens_.camera().focal;
 	for (int v = rect.v; v < rect.bottom(); v++)
-		for (int u = rect.u; u < rect.right(); u++) {
-			const size_t i = pixel(u, v);
+		for (size_t i = pixel(rect.u, v); i < pixel(rect.u, v) + static_cast<size_t>(rect.width); i++) {
 			if (backdrop_.beyond()[i] == 0)
 				continue;
+			const Vector2d slope(slope_x_[i], slope_y_[i]);
 			double level = 0;
-			const double cover = look_at_limb(limb, lens_.pixel_ray(u, v), softness, &level);
+			const double cover = look_at_limb(limb, lens_.camera().centre.head<2>() + distance * slope,
+							  softness, &level);
 			const double behind = Sensor::level(light_[i]);
-			light_[i] = Sensor::light(behind + cover * backdrop_.beyond()[i] * (level - behind));
+			if (cover > 0)
+				light_[i] = Sensor::light(behind + cover * backdrop_.beyond()[i] * (level - behind));
 		}
 	if (!rect.empty())
 		touched_.push_back(rect);
@@ -167,8 +176,8 @@ void Renderer::begin_samples(const Rect &pixels, double time, const Ball &ball)
 	backdrop_.copy(pixels, lens_, &samples_);
 	const Shadow shadow(scene_.light, ball);
 	for (size_t i = 0; shadow.visible() && i < samples_.level.size(); i++)
-		samples_.level[i] *= static_cast<float>(
-			shadow.factor(lens_.ray(samples_.x[i], samples_.y[i]), samples_.depth[i]));
+		samples_.level[i] *=
+			static_cast<float>(shadow.factor(lens_.ray(samples_.x[i], samples_.y[i]), samples_.depth[i]));
 	for (const Limb &limb : limbs_at(time, scene_.people)) {
 		if (intersection(limb_rect(limb), pixels).empty())
 			continue;
@@ -177,8 +186,8 @@ void Renderer::begin_samples(const Rect &pixels, double time, const Ball &ball)
 			if (samples_.depth[i] < limb.z - lens_.camera().centre.z())
 				continue;
 			double level = 0;
-			const double cover =
-				look_at_limb(limb, lens_.ray(samples_.x[i], samples_.y[i]), softness, &level);
+			const double cover = look_at_limb(limb, on_plane(limb, lens_.ray(samples_.x[i], samples_.y[i])),
+							  softness, &level);
 			samples_.level[i] += static_cast<float>(cover * (level - samples_.level[i]));
 		}
 	}
@@ -195,7 +204,7 @@ void Renderer::expose_ball(const Episode &episode, const Exposure &exposure)
 		return uv;
 	};
 	const double way = (place(0.5) - place(-0.5)).norm();
-	const int moments = way < 0.05 ? 1 : 3 * std::clamp(static_cast<int>(std::ceil(way / 3 / 0.4)), 1, 10);
+	const int moments = way < 0.05 ? 1 : 3 * std::clamp(static_cast<int>(std::ceil(way / 3 / 0.7)), 1, 8);
 	for (int i = 0; i < moments; i++) {
 		const double part = (i + 0.5) / moments - 0.5;
 		const Ball ball = episode.ball(exposure.time + part * exposure.duration);
@@ -245,7 +254,8 @@ void Renderer::expose(uint64_t frame, uint8_t *pixels)
 	const Rect picture = lens_.picture();
 	for (int v = 0; v < picture.height; v++) {
 		const size_t row = pixel(0, v);
-		const uint64_t key = hash(key_ + frame * static_cast<uint64_t>(picture.height) + static_cast<uint64_t>(v));
+		const uint64_t key =
+			hash(key_ + frame * static_cast<uint64_t>(picture.height) + static_cast<uint64_t>(v));
 		sensor_.expose(&light_[row], &deviation_[row], picture.width, key, pixels + row);
 	}
 }

@@ -46,6 +46,7 @@ private:
 	const Sensor sensor_;
 	const Backdrop backdrop_;
 	const uint64_t key_;
+	std::vector<float> slope_x_, slope_y_; // of the pixels' rays: x and y over z
 
 	// The picture in the making: the backdrop, but in the touched rectangles.
 	std::vector<Fixed> light_, deviation_;

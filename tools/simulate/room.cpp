@@ -86,7 +86,8 @@ double Room::table_level(double x, double z, double footprint_x, double footprin
 double Room::floor_level(double x, double z) const
 {
 	const double boards = noise(std::floor(x / 0.12), std::floor(z / 1.1 + 0.37 * std::floor(x / 0.12)), seed_ + 3);
-	const double texture = 0.5 * boards + 0.5 * noise(25 * x, 5 * z, seed_ + 4) + 0.3 * noise(3 * x, 3 * z, seed_ + 5);
+	const double texture =
+		0.5 * boards + 0.5 * noise(25 * x, 5 * z, seed_ + 4) + 0.3 * noise(3 * x, 3 * z, seed_ + 5);
 	// The table's shade.
 	const double beyond = std::max(std::abs(x) - table_width / 2, std::abs(z - net_z) - table_length / 2);
 	const double shade = 1 - 0.5 / (1 + std::exp(beyond / 0.08));
@@ -116,7 +117,8 @@ void Room::look_at_net(const Ray &ray, double spread, Sight *sight) const
 	const double footprint = sight->net_depth * spread;
 	const double across = stripe(p.x(), footprint, -net_reach, net_reach);
 	const double tape = across * stripe(p.y(), footprint, net_height - tape_width, net_height);
-	const double threads = 1 - (1 - stripes(p.x(), footprint, mesh, thread)) * (1 - stripes(p.y(), footprint, mesh, thread));
+	const double threads =
+		1 - (1 - stripes(p.x(), footprint, mesh, thread)) * (1 - stripes(p.y(), footprint, mesh, thread));
 	const double cloth = across * stripe(p.y(), footprint, 0, net_height - tape_width) * threads;
 	sight->net_cover = tape + cloth;
 	if (sight->net_cover > 0)

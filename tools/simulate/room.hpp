@@ -14,8 +14,8 @@ constexpr double net_reach = table_width / 2 + 0.1525; // from the middle, m
 constexpr double floor_y = -0.76;
 
 struct Background {
-	double level = 50;    // mean of the wall and the floor, grey levels
-	double contrast = 20; // of their texture, grey levels
+	double level = 50;     // mean of the wall and the floor, grey levels
+	double contrast = 20;  // of their texture, grey levels
 	double distance = 5.5; // of the wall, z, m
 };
 

@@ -153,7 +153,8 @@ const std::vector<BuiltinScene> &builtin_scenes()
 {
 	static const std::vector<BuiltinScene> scenes = {
 		{"rally", "serves to the robot one after another, light spin", "show = 'flights'"},
-		{"paper60", "the paper's 60 static positions, 20 over the table at three heights", "show = 'positions'"},
+		{"paper60", "the paper's 60 static positions, 20 over the table at three heights",
+		 "show = 'positions'"},
 		{"paper66", "the paper's 66 launches, 11 directions x 3 speeds x 2, light spin", "show = 'launches'"},
 		{"whitewall", "a white ball before a bright wall in strong light",
 		 "[light]\nlevel = 235\n[background]\nlevel = 195\ncontrast = 10"},

@@ -18,7 +18,7 @@ struct Light {
 	double level = 200; // grey levels
 	double ambient = 0.38, hemisphere = 0.22, diffuse = 0.42, specular = 0;
 	Eigen::Vector3d towards = Eigen::Vector3d(-0.2, 1, -0.6); // the lamp, table frame
-	double logo = 0;    // how much darker the ball's printed spot is, 0 to 1
+	double logo = 0;                                          // how much darker the ball's printed spot is, 0 to 1
 	double shadow = 0.3; // how much darker the table is under a ball that touches it, 0 to 1
 };
 
@@ -29,8 +29,8 @@ struct PictureSettings {
 };
 
 struct BoardSettings {
-	int columns = 9, rows = 6; // inner corners
-	double square = 0.025;     // m
+	int columns = 9, rows = 6;                         // inner corners
+	double square = 0.025;                             // m
 	std::vector<double> planes = {0.5, 0.8, 1.1, 1.4}; // z of the upright poses, m
 	int tilted = 15;                                   // poses in between
 };

@@ -49,8 +49,8 @@ double Section::to_number(const toml::node &node, const std::string &key, double
 	if (!value || !std::isfinite(*value))
 		fail(node.source(), prefix_ + key + " needs a number");
 	if (*value < min || *value > max)
-		fail(node.source(), format("%s%s must lie between %g and %g, not %g", prefix_.c_str(), key.c_str(), min,
-					   max, *value));
+		fail(node.source(),
+		     format("%s%s must lie between %g and %g, not %g", prefix_.c_str(), key.c_str(), min, max, *value));
 	return *value;
 }
 

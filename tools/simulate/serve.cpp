@@ -12,8 +12,8 @@ namespace sim
 namespace
 {
 
-constexpr double launch_y = 0.30, launch_z = 3.55;  // of the launcher's mouth, m
-constexpr double net_clearance = ball_radius + 0.005; // of the ball's centre, m
+constexpr double launch_y = 0.30, launch_z = 3.55;     // of the launcher's mouth, m
+constexpr double net_clearance = ball_radius + 0.005;  // of the ball's centre, m
 constexpr double lowest_hit = 0.03, highest_hit = 0.9; // y on the hit plane, m
 
 // A launch, but for its direction.

@@ -13,11 +13,11 @@ using Random = std::mt19937_64;
 
 // How flights are drawn.
 struct FlightSettings {
-	std::array<double, 2> speed = {7, 13};      // at the launch, m/s
-	std::array<double, 2> aim = {-0.45, 0.45};  // x on the hit plane, m
-	std::array<double, 2> bounce = {0.4, 1.1};  // z of the bounce, m
-	double spin = 5;                            // at most, about any axis, revolutions/s
-	double gap = 0.4;                           // without a ball between flights, s
+	std::array<double, 2> speed = {7, 13};     // at the launch, m/s
+	std::array<double, 2> aim = {-0.45, 0.45}; // x on the hit plane, m
+	std::array<double, 2> bounce = {0.4, 1.1}; // z of the bounce, m
+	double spin = 5;                           // at most, about any axis, revolutions/s
+	double gap = 0.4;                          // without a ball between flights, s
 	// Drawn for each flight: mean and standard deviation.
 	std::array<double, 2> drag = {0.47, 0.015};
 	std::array<double, 2> magnus = {4.65e-6, 0.1e-6}; // kg

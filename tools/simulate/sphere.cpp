@@ -38,8 +38,8 @@ struct Shading {
 	float at(float nx, float ny, float nz) const
 	{
 		const auto along = [&](const Vector3f &v) { return nx * v.x() + ny * v.y() + nz * v.z(); };
-		float light = ambient + hemisphere * (0.5f + 0.5f * along(up)) +
-			      diffuse * std::max(0.0f, along(towards));
+		float light =
+			ambient + hemisphere * (0.5f + 0.5f * along(up)) + diffuse * std::max(0.0f, along(towards));
 		if (logo_shade > 0 && along(logo) > 0.94f)
 			light *= 1 - logo_shade;
 		if (specular > 0)
@@ -52,7 +52,7 @@ struct Shading {
 // the sphere where D = r^2 |d|^2 - |c x d|^2 is not negative. With d = c / c_z + (p, q, 0) the cross product has no
 // cancellation, and single precision suffices.
 struct Cone {
-	float cx, cy, cz;   // centre, m
+	float cx, cy, cz;     // centre, m
 	float axis_x, axis_y; // ideal image point of the centre
 	float r2;
 
@@ -64,7 +64,7 @@ struct Cone {
 	}
 };
 
-void draw_row(const Cone &cone, const Shading &shading, float sample_per_unit, float weight, Samples *s, size_t begin,
+void draw_row(const Cone &cone, const Shading &shading, float samples_per_unit, float weight, Samples *s, size_t begin,
 	      size_t end)
 {
 	const float inverse_radius = static_cast<float>(1 / ball_radius);
@@ -76,7 +76,7 @@ void draw_row(const Cone &cone, const Shading &shading, float sample_per_unit, f
 		// Half of D's gradient: D over it, in samples, is twice the distance from the outline.
 		const float gx = cone.r2 * x - cone.cz * cone.cz * p + twist * cone.cy;
 		const float gy = cone.r2 * y - cone.cz * cone.cz * q - twist * cone.cx;
-		const float distance = D * sample_per_unit / (2 * std::sqrt(gx * gx + gy * gy) + 1e-12f);
+		const float distance = D * samples_per_unit / (2 * std::sqrt(gx * gx + gy * gy) + 1e-12f);
 		const float cover = std::min(distance + 0.5f, 1.0f);
 		const float along = x * cone.cx + y * cone.cy + cone.cz;
 		const float t = (along - std::sqrt(std::max(D, 0.0f))) / d2;
@@ -95,13 +95,21 @@ void draw_sphere(const Camera &camera, const Light &light, const Ball &ball, con
 {
 	const Cone cone(camera.to_camera(ball.position));
 	const Shading shading(camera, light, ball);
-	const float sample_per_unit = static_cast<float>(camera.focal * Lens::fine);
+	const float samples_per_unit = static_cast<float>(camera.focal * Lens::fine);
+	// The outline is nearly a circle of radius r / depth: only there is anything to do.
+	const float reach = 1.3f * static_cast<float>(ball_radius) / cone.cz + 3 / samples_per_unit;
 	const size_t columns = static_cast<size_t>(samples->columns);
-	const float reach = 1.2f * static_cast<float>(ball_radius) / cone.cz;
 	for (int row = share.first; row < samples->rows; row += share.skip) {
 		const size_t begin = static_cast<size_t>(row) * columns, end = begin + columns;
-		if (std::abs(samples->y[begin + columns / 2] - cone.axis_y) < 1.2f * reach)
-			draw_row(cone, shading, sample_per_unit, share.weight, samples, begin, end);
+		if (std::abs(samples->y[begin + columns / 2] - cone.axis_y) > reach)
+			continue;
+		const auto column = [&](float x) {
+			const float from = samples->x[begin], to = samples->x[end - 1];
+			const float part = (x - from) / (to - from) * static_cast<float>(columns - 1);
+			return static_cast<size_t>(std::clamp(part, 0.0f, static_cast<float>(columns)));
+		};
+		draw_row(cone, shading, samples_per_unit, share.weight, samples, begin + column(cone.axis_x - reach),
+			 begin + column(cone.axis_x + reach));
 	}
 }
 

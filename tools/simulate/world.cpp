@@ -11,7 +11,7 @@ namespace sim
 namespace
 {
 
-constexpr size_t remembered = 8; // episodes
+constexpr size_t remembered = 8;                 // episodes
 constexpr int empty_frames = 8, ball_frames = 4; // of every resting place
 constexpr int directions = 11, repeats = 2;
 constexpr double launch_speeds[] = {7, 9.5, 13}; // m/s

@@ -86,7 +86,7 @@ void Camera::serve()
 {
 	Bytes datagram;
 	Endpoint from;
-	while (control_socket_.receive(datagram, from)) {
+	for (int i = 0; i < datagrams_a_round && control_socket_.receive(datagram, from); i++) {
 		const Answer answer = control_.handle(datagram.data(), datagram.size(), from, monotonic_now());
 		if (!answer.reply.empty())
 			control_socket_.send(from, answer.reply);
@@ -121,16 +121,17 @@ void Camera::begin_session(const Acquisition &acquisition)
 {
 	session_ = acquisition.session;
 	session_begin_ = monotonic_now();
-	software_triggers_ = acquisition.software_triggers;
+	software_triggers_ = 0;
 	frame_id_ = 0;
 	ring_.clear();
 }
 
-// The next exposure that can still be had: the sensor must be free, and the picture, which is rendered beforehand, must
-// not be due already.
+// The next exposure that can still be had: the sensor must be free, and there must be time to render the picture until
+// it is due.
 std::optional<Camera::Shot> Camera::plan(const Acquisition &acquisition)
 {
-	const int64_t earliest = std::max(sensor_free_, monotonic_now() - nanoseconds(acquisition.exposure) - readout);
+	const int64_t rendered = monotonic_now() + render_time_;
+	const int64_t earliest = std::max(sensor_free_, rendered - nanoseconds(acquisition.exposure) - readout);
 	if (!acquisition.is_triggered)
 		return plan_free(acquisition, earliest);
 	return acquisition.by_line ? plan_by_line(earliest) : plan_by_software(acquisition);
@@ -141,24 +142,24 @@ std::optional<Camera::Shot> Camera::plan_by_line(int64_t earliest) const
 	const std::optional<Pulse> pulse = line_.next(earliest);
 	if (!pulse)
 		return std::nullopt;
-	return Shot{pulse->time, pulse->number, true};
+	return Shot{pulse->time, pulse->number, true, false};
 }
 
-// Triggers that come while the sensor is busy are lost, as on a real one.
+// Several triggers that come while a picture is under way make one more picture.
 std::optional<Camera::Shot> Camera::plan_by_software(const Acquisition &acquisition)
 {
 	if (software_triggers_ == acquisition.software_triggers)
 		return std::nullopt;
 	software_triggers_ = acquisition.software_triggers;
 	const int64_t start = std::max(sensor_free_, monotonic_now());
-	return Shot{start, line_.number_at(start), false};
+	return Shot{start, line_.number_at(start), false, true};
 }
 
 Camera::Shot Camera::plan_free(const Acquisition &acquisition, int64_t earliest) const
 {
 	const Schedule schedule{session_begin_, acquisition.frame_rate};
 	const int64_t start = schedule.time(schedule.first_from(earliest));
-	return {start, line_.number_at(start), false};
+	return {start, line_.number_at(start), false, false};
 }
 
 // Rendered before it is due, sent when it is: or not at all, where the machine was too busy to render it in time.
@@ -166,14 +167,21 @@ void Camera::take(const Shot &shot, const Acquisition &acquisition)
 {
 	const int64_t end = shot.start + nanoseconds(acquisition.exposure);
 	sensor_free_ = std::max(end, shot.start + 1);
-	source_.render(index_, shot.pulse, acquisition.exposure, pixels_.data());
+	render(shot, acquisition);
 	if (!control_.wait_in_session(end + readout, acquisition.session))
 		return;
-	if (monotonic_now() > end + readout + patience)
+	if (!shot.can_wait && monotonic_now() > end + readout + patience)
 		return;
 	stream(compose(shot, acquisition), acquisition);
 	if (acquisition.is_single_frame)
 		control_.finish(acquisition.session);
+}
+
+void Camera::render(const Shot &shot, const Acquisition &acquisition)
+{
+	const int64_t begin = monotonic_now();
+	source_.render(index_, shot.pulse, acquisition.exposure, pixels_.data());
+	render_time_ += (monotonic_now() - begin - render_time_) / 8; // a running mean
 }
 
 const Frame &Camera::compose(const Shot &shot, const Acquisition &acquisition)

@@ -13,6 +13,9 @@
 namespace gige
 {
 
+// A flood of datagrams must not keep the rest of the server from its work.
+constexpr int datagrams_a_round = 64;
+
 class Camera
 {
 public:
@@ -44,6 +47,7 @@ private:
 		int64_t start; // ns of CLOCK_MONOTONIC
 		int64_t pulse;
 		bool is_by_line;
+		bool can_wait; // for its picture, however long it takes to render
 	};
 
 	void expose_pictures();
@@ -53,6 +57,7 @@ private:
 	Shot plan_free(const Acquisition &acquisition, int64_t earliest) const;
 	void begin_session(const Acquisition &acquisition);
 	void take(const Shot &shot, const Acquisition &acquisition);
+	void render(const Shot &shot, const Acquisition &acquisition);
 	const Frame &compose(const Shot &shot, const Acquisition &acquisition);
 	void crop(const Region &region);
 	void stream(const Frame &frame, const Acquisition &acquisition);
@@ -78,6 +83,7 @@ private:
 	uint16_t frame_id_ = 0;
 	int64_t session_begin_ = 0;
 	int64_t sensor_free_ = 0; // when the sensor can be exposed again, ns
+	int64_t render_time_ = 0; // that a picture takes, of late, ns
 };
 
 } // namespace gige

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "genicam.hpp"
-#include "program.hpp"
+#include "power_on.hpp"
 
 namespace gige
 {
@@ -19,46 +19,6 @@ std::chrono::steady_clock::time_point to_time_point(int64_t monotonic)
 	return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(monotonic));
 }
 
-// Who and what the camera is: the registers that never change.
-void set_identity(RegisterFile &registers, const ControlSettings &settings, size_t description_size)
-{
-	registers.set(at::version, 0x00010002);     // GigE Vision 1.2
-	registers.set(at::device_mode, 0x80000001); // big-endian, UTF-8
-	registers.set(at::mac_high, 0x0200);        // a locally administered address, made of the IP address
-	registers.set(at::mac_low, settings.address);
-	registers.set(at::supported_ip_configuration, 0x5); // link-local and persistent
-	registers.set(at::current_ip_configuration, 0x5);
-	registers.set(at::ip_address, settings.address);
-	registers.set(at::subnet_mask, 0xff000000);
-	registers.set_text(at::manufacturer, "Pongeye");
-	registers.set_text(at::model, "Simulated");
-	registers.set_text(at::device_version, "1");
-	registers.set_text(at::manufacturer_info, "a simulated camera");
-	registers.set_text(at::serial_number, settings.serial.substr(0, 15));
-	registers.set_text(at::description_url,
-			   pong::format("Local:pongeye.xml;%x;%zx", at::description, description_size));
-	registers.set(at::network_interfaces, 1);
-	registers.set(at::stream_channels, 1);
-	registers.set(at::capabilities, 0x40000007); // concatenation, WRITEMEM, PACKETRESEND, serial number
-	registers.set64(at::tick_frequency, 1000000000);
-}
-
-// What a client may change, as it is at power-on.
-void set_defaults(RegisterFile &registers, const ControlSettings &settings)
-{
-	registers.set(at::heartbeat_timeout, 3000);
-	registers.set(at::stream_packet_size, gvsp::max_packet_size); // which loopback carries
-	registers.set(at::sensor_width, static_cast<uint32_t>(settings.sensor_width));
-	registers.set(at::sensor_height, static_cast<uint32_t>(settings.sensor_height));
-	registers.set(at::width, static_cast<uint32_t>(settings.sensor_width));
-	registers.set(at::height, static_cast<uint32_t>(settings.sensor_height));
-	registers.set(at::pixel_format, gvsp::mono8);
-	registers.set(at::frame_rate_enable, 1);
-	registers.set_real(at::frame_rate, 30);
-	registers.set(at::trigger_source, source_line1);
-	registers.set_real(at::exposure_time, static_cast<float>(settings.exposure * 1e6));
-}
-
 } // namespace
 
 Control::Control(const ControlSettings &settings, const FrameRing &ring)
@@ -66,7 +26,7 @@ Control::Control(const ControlSettings &settings, const FrameRing &ring)
 	  registers_(register_table(settings.sensor_width, settings.sensor_height),
 		     describe(register_table(settings.sensor_width, settings.sensor_height)))
 {
-	set_identity(registers_, settings_, registers_.description_size());
+	set_identity(registers_, settings_);
 	set_defaults(registers_, settings_);
 	registers_.set(at::payload_size, static_cast<uint32_t>(payload_size(region(), false)));
 }
@@ -285,8 +245,10 @@ void Control::fire_test_packet(Answer &answer)
 
 void Control::start()
 {
-	if (!session_)
-		session_ = ++sessions_;
+	if (session_)
+		return;
+	session_ = ++sessions_;
+	software_triggers_ = 0;
 }
 
 void Control::stop()

@@ -5,22 +5,14 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "gvcp.hpp"
+#include "power_on.hpp"
 #include "registers.hpp"
 #include "stream.hpp"
 
 namespace gige
 {
-
-struct ControlSettings {
-	uint32_t address; // the camera's own, IPv4
-	std::string serial;
-	int sensor_width, sensor_height; // px
-	double exposure;                 // s
-	int64_t power_on;                // when the camera's clock began, ns of CLOCK_MONOTONIC
-};
 
 // What a command leads to.
 struct Answer {
@@ -34,7 +26,7 @@ struct Acquisition {
 	uint64_t changes = 0; // so far
 	uint64_t session = 0; // another number after every start; 0: not streaming
 	bool is_triggered = false, by_line = false;
-	uint64_t software_triggers = 0; // so far
+	uint64_t software_triggers = 0; // since the start
 	double frame_rate = 0;          // Hz, where not triggered
 	double exposure = 0;            // s
 	double gain = 0;                // dB

@@ -27,6 +27,34 @@ bool waits_for_line(const Acquisition &acquisition)
 	return acquisition.session && acquisition.is_triggered && acquisition.by_line;
 }
 
+using Cameras = std::vector<std::unique_ptr<Camera>>;
+
+Cameras open_cameras(const ServerSettings &settings, const TriggerLine &line, PictureSource &source)
+{
+	Cameras cameras;
+	for (size_t i = 0; i < settings.cameras.size(); i++)
+		cameras.push_back(std::make_unique<Camera>(settings, static_cast<int>(i), line, source));
+	return cameras;
+}
+
+void require(bool is_good, const char *sentence)
+{
+	if (!is_good)
+		throw pong::Failure(sentence);
+}
+
+const ServerSettings &check(const ServerSettings &settings)
+{
+	const auto is_side = [](int pixels) { return pixels >= 16 && pixels <= 8192 && pixels % 4 == 0; };
+	require(!settings.cameras.empty(), "a camera server needs at least one camera");
+	require(is_side(settings.width) && is_side(settings.height),
+		"a simulated sensor's sides must be multiples of 4 between 16 and 8192 pixels");
+	require(settings.rate > 0 && settings.rate <= 10000, "the trigger rate must lie between 0 and 10000 Hz");
+	require(settings.exposure >= 10e-6 && settings.exposure <= 1, "the exposure must lie between 10 us and 1 s");
+	require(settings.link_rate >= 1e6, "the link must carry 1 Mbit/s at least");
+	return settings;
+}
+
 } // namespace
 
 struct Server::Implementation {
@@ -43,18 +71,17 @@ struct Server::Implementation {
 	const ServerSettings settings;
 	PictureSource &source;
 	TriggerLine line;
-	std::vector<std::unique_ptr<Camera>> cameras;
+	Cameras cameras;
 	const UdpSocket discovery_socket;
 	std::vector<pollfd> inputs;
 };
 
 Server::Implementation::Implementation(const ServerSettings &wanted, PictureSource &picture_source)
-	: settings(wanted), source(picture_source), line(wanted.rate, monotonic_now()), discovery_socket(broadcast)
+	: settings(check(wanted)), source(picture_source), line(wanted.rate, monotonic_now()),
+	  cameras(open_cameras(settings, line, source)), discovery_socket(broadcast)
 {
-	for (size_t i = 0; i < settings.cameras.size(); i++) {
-		cameras.push_back(std::make_unique<Camera>(settings, static_cast<int>(i), line, source));
-		inputs.push_back({cameras.back()->control_descriptor(), POLLIN, 0});
-	}
+	for (const auto &camera : cameras)
+		inputs.push_back({camera->control_descriptor(), POLLIN, 0});
 	inputs.push_back({discovery_socket.descriptor(), POLLIN, 0});
 }
 
@@ -94,7 +121,7 @@ void Server::Implementation::answer_discovery()
 {
 	Bytes datagram;
 	Endpoint from;
-	while (discovery_socket.receive(datagram, from))
+	for (int i = 0; i < datagrams_a_round && discovery_socket.receive(datagram, from); i++)
 		for (const auto &camera : cameras)
 			camera->answer_discovery(datagram, from);
 }

@@ -1,4 +1,4 @@
-#include "live.hpp"
+#include "live_table.hpp"
 
 #include <cmath>
 #include <cstdio>
