@@ -10,9 +10,17 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference \
-	detect_double detect cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate reconstruct \
-	flight physics trajectory estimate halves track outlook predict window eye
+LIB := \
+	error document \
+	rig camera settings \
+	region \
+	cells conditions patch five_points blob detect_difference detect_double detect \
+	cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate \
+	reconstruct \
+	flight physics trajectory noise estimate halves track \
+	outlook predict \
+	window \
+	eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track predict simulate bench

@@ -39,14 +39,14 @@ Parameters usual_parameters(const pong_ball_spec &ball)
 Parameters usual_sigmas(const pong_ball_spec &ball)
 {
 	Parameters sigmas;
-	sigmas << Vector3::Constant(position_sigma), velocity_sigma, Vector3::Constant(ball.spin_sigma), ball.drag_sigma,
+	sigmas << Vector3::Constant(position_sigma), velocity_sigma, vector_of(ball.spin_sigma), ball.drag_sigma,
 		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, ball.kick, ball.kick;
 	return sigmas;
 }
 
 } // namespace
 
-Estimate::Estimate(const pong_rig &rig) : rig_(rig), physics_(rig)
+Estimate::Estimate(const pong_rig &rig, double shared_noise) : rig_(rig), physics_(rig), noise_(shared_noise)
 {
 	clear();
 }
@@ -54,6 +54,7 @@ Estimate::Estimate(const pong_rig &rig) : rig_(rig), physics_(rig)
 void Estimate::clear()
 {
 	count_ = 0;
+	noise_.clear();
 	prior_mean_ = usual_parameters(rig_.ball);
 	prior_information_ = usual_sigmas(rig_.ball).cwiseMax(1e-9).array().square().inverse().matrix().asDiagonal();
 }
@@ -72,9 +73,22 @@ void Estimate::add(const pong_point &point)
 	if (count_ == window_)
 		fold();
 	const Matrix3 covariance = Eigen::Map<const Matrix3>(&point.covariance[0][0]);
-	samples_[count_++] = {seconds(anchor_, point.utime), vector_of(point.position), covariance.inverse()};
+	const bool known = covariance.determinant() > 0;
+	samples_[count_++] = {seconds(anchor_, point.utime), vector_of(point.position),
+			      known ? covariance.inverse().eval() : Matrix3::Zero().eval(), !known};
+	if (!known)
+		find_noise();
 	improve();
 	find_state();
+}
+
+void Estimate::find_noise()
+{
+	noise_.add(samples_[count_ - 1].time, samples_[count_ - 1].position);
+	const Matrix3 information = noise_.sigma().array().square().inverse().matrix().asDiagonal();
+	for (size_t i = 0; i < count_; i++)
+		if (samples_[i].unknown)
+			samples_[i].information = information;
 }
 
 Estimate::Quadratic Estimate::prior_at(const Parameters &parameters) const

@@ -56,7 +56,7 @@ private:
 	Impulse impulse(const Parameters &parameters, const Motion &motion) const;
 	void push_along_table(const Parameters &parameters, Motion &motion) const;
 
-	double radius_, drag_factor_, magnus_factor_, gravity_;
+	double radius_, drag_factor_, drag_by_spin_, magnus_factor_, saturation_, gravity_;
 };
 
 } // namespace pong

@@ -95,13 +95,15 @@ typedef struct pong_ball_spec {
 	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
 	double air_density; /* rho, kg/m^3 */
 	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
-	double magnus;      /* F = magnus spin x velocity, kg */
+	double drag_by_spin; /* what S, the speed of the ball's surface over that of its flight, adds to the drag's C */
+	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
+	double magnus_saturation;
 	double restitution; /* vertical speed after a bounce over that before it */
 	double friction;    /* mu between ball and table */
 	double grip;        /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
 			       as that of a gripping rubber ball is, by this part */
 	double kick;        /* standard deviation of what a bounce adds to the velocity along the table, m/s */
-	double spin_sigma;  /* of a component of the spin that players give to the ball, rad/s */
+	double spin_sigma[3]; /* of the spin that players give to the ball about x, y, z, rad/s; its mean is 0 */
 	/* Standard deviations of the coefficients above: from ball to ball, from day to day. */
 	double drag_sigma, magnus_sigma, restitution_sigma, friction_sigma, grip_sigma;
 } pong_ball_spec;
@@ -127,7 +129,10 @@ PONG_API void pong_rig_defaults(pong_rig *rig);
  * Returns PONG_FOUND, PONG_ERROR_FILE, PONG_ERROR_FORMAT or PONG_ERROR_VALUE, with file, line and column in *error. */
 PONG_API int pong_rig_load(const char *path, pong_rig *rig, pong_error *error);
 
-/* The same from text of any length; name stands for the file in errors. */
+/* The same of a file that may lack the cameras, which are not read: what tracking and predicting points needs. */
+PONG_API int pong_rig_load_flight(const char *path, pong_rig *rig, pong_error *error);
+
+/* As pong_rig_load, from text of any length; name stands for the file in errors. */
 PONG_API int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error);
 
 /* Write *rig as TOML text into text[capacity], always terminated. Returns the length that it takes (as snprintf does:
@@ -214,6 +219,8 @@ typedef struct pong_settings {
 		double gate_rate; /* and this much farther for every second since the last point, m/s */
 		double lost;      /* a ball not seen for this long is lost, s */
 		double speed;     /* faster than this no ball flies, m/s */
+		double noise;     /* standard deviation of what neighbouring points err alike with, m; for points
+				     without covariance, whose scatter is found out from themselves */
 	} track;
 	struct {
 		pong_predict_method method;
@@ -320,7 +327,7 @@ typedef struct pong_point {
 	int64_t utime;
 	int64_t frame;
 	double position[3];
-	double covariance[3][3]; /* m^2 */
+	double covariance[3][3]; /* m^2; all zero where unknown: the best profile then finds it out */
 } pong_point;
 
 /* The fundamental matrix F of ideal (undistorted) pixels: right' F left = 0 (paper, appendix). */

@@ -57,7 +57,7 @@ int prediction(int argc, char **argv)
 {
 	int seeds = 6;
 	LaunchSettings settings;
-	double kick = -1, grip = -1, spin = -1;
+	double kick = -1, grip = 0.05, spin = -1;
 	pong::Options options("pongeye-bench prediction", "Predict simulated launches.", "");
 	options.integer("--seeds", "6", "noise drawn so often for each flight", &seeds, 1, 1000);
 	options.number("--noise", "0.1", "of a centre, px", &settings.noise, 0.001, 10);
@@ -75,9 +75,13 @@ int prediction(int argc, char **argv)
 	for (const double revolutions : {5., 30., 100.}) {
 		settings.spin = revolutions;
 		const Spread spread = spread_of(settings);
-		rig.ball.spin_sigma = spin >= 0 ? spin : spread.spin;
+		std::fill_n(rig.ball.spin_sigma, 3, spin >= 0 ? spin : spread.spin);
 		rig.ball.drag = 0.47;
 		rig.ball.drag_sigma = spread.drag;
+		rig.ball.magnus = 4.65e-6;
+		rig.ball.magnus_saturation = 0;
+		rig.ball.drag_by_spin = 0;
+		rig.ball.grip = 0;
 		rig.ball.magnus_sigma = spread.magnus;
 		rig.ball.restitution_sigma = spread.restitution;
 		rig.ball.friction_sigma = spread.friction;

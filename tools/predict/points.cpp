@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
 
 #include "program.hpp"
 
@@ -143,6 +146,25 @@ double PointReader::number(Column column) const
 void PointReader::fail(const std::string &why) const
 {
 	throw pong::Failure(pong::format("%s:%lld: %s", name_.c_str(), static_cast<long long>(line_number_), why.c_str()));
+}
+
+std::vector<RecordedFlight> read_flights(const std::string &path)
+{
+	std::ifstream file;
+	if (path != "-") {
+		file.open(path);
+		if (!file)
+			throw pong::Failure(path + ": " + strerror(errno));
+	}
+	PointReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
+	std::vector<RecordedFlight> flights;
+	Row row;
+	while (reader.next(&row)) {
+		if (row.begins_flight)
+			flights.push_back({row.flight, {}});
+		flights.back().points.push_back(row.point);
+	}
+	return flights;
 }
 
 } // namespace predict
