@@ -10,7 +10,7 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region detect locate reconstruct flight track predict window eye
+LIB := error document rig camera calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate settings region detect locate reconstruct flight track predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := track simulate bench
