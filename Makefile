@@ -10,16 +10,21 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate settings region detect locate reconstruct flight track predict window eye
+LIB := error document rig camera calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error \
+	calibrate_refine calibrate settings region detect cone locate_gaussian locate_centroid locate_edges locate \
+	reconstruct flight track predict window eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := track simulate bench
+PROGRAMS := calibrate track simulate bench
 PACKAGES_lib      := eigen3
+PACKAGES_calibrate := eigen3 aravis-0.8
 PACKAGES_track    := aravis-0.8 lcm
 PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
+OPENCV_calibrate  := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
@@ -107,6 +112,8 @@ $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
 	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
 
+$(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
+
 $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
 	@mkdir -p $$(@D)
@@ -114,11 +121,10 @@ $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
-$(BUILD)/obj/tools/track/%.o: | $(LCM_HPP)
-
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)
-	install -m 755 $< $@
+	sed 's/@VERSION@/$(VERSION)/' $< >$@
+	chmod 755 $@
 
 # --- Tests: one binary of unit tests, which links the library and every program but its main, and scripts that run the
 # programs as a user would.

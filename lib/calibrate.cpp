@@ -45,8 +45,8 @@ void check_corner(const Views &given, int number)
 {
 	const pong_corner &corner = given.corners[number];
 	if (corner.view < 0 || corner.view >= given.view_count)
-		throw Fault{PONG_ERROR_VALUE, format("corner %d is of view %d, but there are %d", number, corner.view,
-						     given.view_count)};
+		throw Fault{PONG_ERROR_VALUE,
+			    format("corner %d is of view %d, but there are %d", number, corner.view, given.view_count)};
 	if (corner.side != PONG_LEFT && corner.side != PONG_RIGHT)
 		throw Fault{PONG_ERROR_VALUE, format("corner %d is of neither camera", number)};
 	if (corner.point < 0 || corner.point >= 100000)
@@ -260,8 +260,8 @@ int pong_calibrate(const pong_view *views, int view_count, const pong_corner *co
 		   double (*residuals)[2], pong_error *error)
 {
 	return pong::guarded(error, [&] {
-		*calibration = pong::calibrate({views, view_count, corners, corner_count}, *settings,
-					       {results, residuals});
+		*calibration =
+			pong::calibrate({views, view_count, corners, corner_count}, *settings, {results, residuals});
 		return PONG_FOUND;
 	});
 }

@@ -61,8 +61,8 @@ void pong_calibration_expect(const pong_calibration *before, const double pose[3
 		problem.camera[static_cast<size_t>(side)] = CameraModel(before->camera[side]);
 	for (int i = 0; i < corner_count; i++) {
 		board.points.push_back(vector_of(corners[i].board));
-		const Projection projection = project(problem.camera[static_cast<size_t>(corners[i].side)],
-						      board.pose * board.points.back());
+		const Projection projection =
+			project(problem.camera[static_cast<size_t>(corners[i].side)], board.pose * board.points.back());
 		if (projection.ahead)
 			problem.seen.push_back({0, corners[i].side, i, projection.pixel});
 	}

@@ -98,7 +98,8 @@ bool board_homography(const std::vector<Sighted> &points, Matrix3 &H)
 {
 	if (points.size() < 4)
 		return false;
-	const auto places = parts_of<Vector2>(points, [](const Sighted &point) { return point.place.head<2>().eval(); });
+	const auto places =
+		parts_of<Vector2>(points, [](const Sighted &point) { return point.place.head<2>().eval(); });
 	const auto pixels = parts_of<Vector2>(points, [](const Sighted &point) { return point.pixel; });
 	const Normaliser<2> G(places, PONG_NORMALISE_DEVIATION), L(pixels, PONG_NORMALISE_DEVIATION);
 	Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();

@@ -214,8 +214,8 @@ Problem moved(const Problem &problem, const Step &step)
 {
 	Problem result = problem;
 	for (int side = 0; side < 2; side++)
-		result.camera[static_cast<size_t>(side)] =
-			problem.camera[static_cast<size_t>(side)].moved(step.rig.segment<camera_numbers>(side * camera_numbers));
+		result.camera[static_cast<size_t>(side)] = problem.camera[static_cast<size_t>(side)].moved(
+			step.rig.segment<camera_numbers>(side * camera_numbers));
 	for (size_t i = 0; i < step.boards.size(); i++)
 		result.boards[i] = problem.boards[i].moved(step.boards[i]);
 	return result;

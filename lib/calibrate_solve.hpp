@@ -35,7 +35,8 @@ struct Seen {
 	Vector2 pixel;
 };
 
-// What is known of the lens before any picture: a number about its usual value. The aspect is of fu - fv, in parts of fu.
+// What is known of the lens before any picture: a number about its usual value. The aspect is of fu - fv, in parts of
+// fu.
 struct LensPrior {
 	double width[2] = {}, height[2] = {};
 	double aspect = 0, principal = 0, distortion[5] = {};

@@ -20,8 +20,9 @@ std::vector<Sighted> sighted(const Problem &problem, int board, int side)
 	std::vector<Sighted> points;
 	for (const Seen &seen : problem.seen)
 		if (seen.board == board && seen.side == side)
-			points.push_back({problem.boards[static_cast<size_t>(board)].points[static_cast<size_t>(seen.point)],
-					  seen.pixel});
+			points.push_back(
+				{problem.boards[static_cast<size_t>(board)].points[static_cast<size_t>(seen.point)],
+				 seen.pixel});
 	return points;
 }
 
@@ -125,8 +126,7 @@ void relate_cameras(Problem &problem)
 		    !pose_in_camera(problem, board, PONG_RIGHT, in_right))
 			continue;
 		Problem trial = problem;
-		place_camera(trial.camera[PONG_RIGHT],
-			     in_right * in_left.inverse() * problem.camera[PONG_LEFT].pose());
+		place_camera(trial.camera[PONG_RIGHT], in_right * in_left.inverse() * problem.camera[PONG_LEFT].pose());
 		start_boards(trial);
 		const double miss = median_miss(trial, -1);
 		if (miss < best_miss) {

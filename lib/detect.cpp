@@ -152,7 +152,10 @@ int fill_difference(pong_detector &detector, const pong_pictures &pictures, cons
 	return static_cast<int>(sum / pixels);
 }
 
-// The paper's threshold is that mean (section 4.2).
+// The paper's threshold is that mean (section 4.2). Where little moves the mean is that of the noise, and a third of
+// all pixels exceed it; this many times the mean few do.
+const int noise_factor = 2;
+
 void make_binary(pong_detector &detector, int threshold, const Area &area)
 {
 	for (int v = area.v_begin; v < area.v_end; v++) {
@@ -235,31 +238,42 @@ bool measure(const pong_detector &detector, const Area &area, pong_detection &hi
 	return true;
 }
 
-// Scan for upper left boundary points, and try the sizes there.
+// The sizes that a ball may have in one row, widened by what the points forgive.
+struct Sizes {
+	double least, greatest;
+};
+
+Sizes sizes_in_row(const pong_detector &detector, const pong_window *window, int v)
+{
+	const pong_region_row &row = detector.region->rows[static_cast<size_t>(v)];
+	const double forgiven = std::sqrt(size_step);
+	return window ? Sizes{window->size_min / forgiven, window->size_max * forgiven}
+		      : Sizes{row.size_min / forgiven, row.size_max * forgiven};
+}
+
+void match_sizes(pong_detector &detector, const Area &area, const Sizes &sizes, int u, int v)
+{
+	for (const FivePoints &points : detector.sizes)
+		if (points.size >= sizes.least && points.size < sizes.greatest && match(detector, area, points, u, v) &&
+		    detector.hits.size() < hits_capacity)
+			detector.hits.push_back({static_cast<double>(u + points.centre.u),
+						 static_cast<double>(v + points.centre.v), points.size, 0});
+}
+
+// Scan for upper left boundary points, and try the sizes there. Such a point is lit, and so are its neighbours on the
+// ball's side: that passes over the single lit pixels that noise makes.
 void scan(pong_detector &detector, const Area &area, const pong_window *window)
 {
 	detector.hits.clear();
-	for (int v = area.v_begin; v < area.v_end; v++) {
-		const pong_region_row row = detector.region->rows[static_cast<size_t>(v)];
-		const double size_min = window ? window->size_min : row.size_min;
-		const double size_max = window ? window->size_max : row.size_max;
-		const auto first =
-			std::lower_bound(detector.sizes.begin(), detector.sizes.end(), size_min / std::sqrt(size_step),
-					 [](const FivePoints &points, double size) { return points.size < size; });
-		const int u_begin = std::max(row.begin, area.u_begin), u_end = std::min(row.end, area.u_end);
+	for (int v = area.v_begin; v < area.v_end - 1; v++) {
+		const pong_region_row &row = detector.region->rows[static_cast<size_t>(v)];
+		const Sizes sizes = sizes_in_row(detector, window, v);
+		const int u_begin = std::max(row.begin, area.u_begin), u_end = std::min(row.end, area.u_end) - 1;
 		const uint8_t *binary = &detector.binary[static_cast<size_t>(v) * detector.width];
-		for (int u = u_begin; u < u_end; u++) {
-			if (!binary[u])
-				continue;
-			for (auto points = first;
-			     points != detector.sizes.end() && points->size < size_max * std::sqrt(size_step);
-			     ++points) {
-				if (!match(detector, area, *points, u, v) || detector.hits.size() == hits_capacity)
-					continue;
-				detector.hits.push_back({static_cast<double>(u + points->centre.u),
-							 static_cast<double>(v + points->centre.v), points->size, 0});
-			}
-		}
+		const uint8_t *below = binary + detector.width;
+		for (int u = u_begin; u < u_end; u++)
+			if (binary[u] & binary[u + 1] & below[u] & below[u + 1])
+				match_sizes(detector, area, sizes, u, v);
 	}
 }
 
@@ -330,7 +344,8 @@ int pong_detect(pong_detector *detector, const pong_pictures *pictures, const po
 	const Area area = searched_area(*detector, window);
 	if (area.u_begin >= area.u_end || area.v_begin >= area.v_end || capacity < 1)
 		return 0;
-	make_binary(*detector, fill_difference(*detector, *pictures, area), area);
+	const int mean = fill_difference(*detector, *pictures, area);
+	make_binary(*detector, detector->method == PONG_DETECT_DIFFERENCE ? mean : noise_factor * mean + 1, area);
 	scan(*detector, area, window);
 	return measure_hits(*detector, area, found, capacity);
 }

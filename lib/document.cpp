@@ -16,7 +16,7 @@ std::string read_file(const char *path)
 {
 	FILE *file = fopen(path, "rb");
 	if (!file)
-		throw Fault{PONG_ERROR_FILE, format("%s: %s", path, strerror(errno))};
+		throw Fault{PONG_ERROR_FILE, sentence("%s: %s", path, strerror(errno))};
 	std::string text;
 	char buffer[4096];
 	for (size_t length; (length = fread(buffer, 1, sizeof buffer, file)) > 0;)
@@ -24,7 +24,7 @@ std::string read_file(const char *path)
 	const int fault = ferror(file) ? errno : 0;
 	fclose(file);
 	if (fault)
-		throw Fault{PONG_ERROR_FILE, format("%s: %s", path, strerror(fault))};
+		throw Fault{PONG_ERROR_FILE, sentence("%s: %s", path, strerror(fault))};
 	return text;
 }
 
@@ -34,18 +34,18 @@ struct Document::Implementation {
 
 	[[noreturn]] void refuse_at(const toml::source_position &where, int code, const std::string &why) const
 	{
-		throw Fault{code, format("%s:%u:%u: %s", name.c_str(), unsigned(where.line), unsigned(where.column),
-					 why.c_str())};
+		throw Fault{code, sentence("%s:%u:%u: %s", name.c_str(), unsigned(where.line), unsigned(where.column),
+					   why.c_str())};
 	}
 
 	const toml::table &section(const char *title) const
 	{
 		const toml::node *node = root.get(title);
 		if (!node)
-			throw Fault{PONG_ERROR_FORMAT, format("%s: section [%s] is missing", name.c_str(), title)};
+			throw Fault{PONG_ERROR_FORMAT, sentence("%s: section [%s] is missing", name.c_str(), title)};
 		if (!node->is_table())
 			refuse_at(node->source().begin, PONG_ERROR_FORMAT,
-				  format("%s must be a section: [%s]", title, title));
+				  sentence("%s must be a section: [%s]", title, title));
 		return *node->as_table();
 	}
 
@@ -54,7 +54,7 @@ struct Document::Implementation {
 		const toml::table &table = section(title);
 		const toml::node *found = table.get(key);
 		if (!found)
-			refuse_at(table.source().begin, PONG_ERROR_FORMAT, format("%s.%s is missing", title, key));
+			refuse_at(table.source().begin, PONG_ERROR_FORMAT, sentence("%s.%s is missing", title, key));
 		return *found;
 	}
 };
@@ -83,7 +83,7 @@ bool Document::has(const char *section, const char *key) const
 void Document::refuse(const char *section, const char *key, const std::string &why) const
 {
 	const auto &where = implementation_->node(section, key).source().begin;
-	implementation_->refuse_at(where, PONG_ERROR_VALUE, format("%s.%s %s", section, key, why.c_str()));
+	implementation_->refuse_at(where, PONG_ERROR_VALUE, sentence("%s.%s %s", section, key, why.c_str()));
 }
 
 double Document::number(const char *section, const char *key, double min, double max) const
@@ -91,10 +91,10 @@ double Document::number(const char *section, const char *key, double min, double
 	const toml::node &node = implementation_->node(section, key);
 	if (!node.is_number())
 		implementation_->refuse_at(node.source().begin, PONG_ERROR_FORMAT,
-					   format("%s.%s needs a number", section, key));
+					   sentence("%s.%s needs a number", section, key));
 	const double value = node.value<double>().value_or(NAN);
 	if (!(value >= min && value <= max))
-		refuse(section, key, format("must lie between %g and %g, is %g", min, max, value));
+		refuse(section, key, sentence("must lie between %g and %g, is %g", min, max, value));
 	return value;
 }
 
@@ -104,14 +104,14 @@ std::vector<double> Document::numbers(const char *section, const char *key, size
 	const toml::array *array = node.as_array();
 	if (!array || array->size() != count)
 		implementation_->refuse_at(node.source().begin, PONG_ERROR_FORMAT,
-					   format("%s.%s needs %zu numbers, has %zu", section, key, count,
-						  array ? array->size() : size_t{1}));
+					   sentence("%s.%s needs %zu numbers, has %zu", section, key, count,
+						    array ? array->size() : size_t{1}));
 	std::vector<double> values;
 	for (const toml::node &element : *array) {
 		const double value = element.is_number() ? element.value<double>().value_or(NAN) : NAN;
 		if (!std::isfinite(value))
 			implementation_->refuse_at(element.source().begin, PONG_ERROR_FORMAT,
-						   format("%s.%s needs finite numbers", section, key));
+						   sentence("%s.%s needs finite numbers", section, key));
 		values.push_back(value);
 	}
 	return values;
@@ -122,7 +122,7 @@ std::string Document::text(const char *section, const char *key) const
 	const toml::node &node = implementation_->node(section, key);
 	if (!node.is_string())
 		implementation_->refuse_at(node.source().begin, PONG_ERROR_FORMAT,
-					   format("%s.%s needs a text in quotes", section, key));
+					   sentence("%s.%s needs a text in quotes", section, key));
 	return node.value<std::string>().value_or("");
 }
 
@@ -132,7 +132,7 @@ void Document::allow_only(const char *section, const std::vector<std::string> &k
 		if (std::find(keys.begin(), keys.end(), std::string(key.str())) == keys.end())
 			implementation_->refuse_at(
 				key.source().begin, PONG_ERROR_FORMAT,
-				format("[%s] has no key '%s'", section, std::string(key.str()).c_str()));
+				sentence("[%s] has no key '%s'", section, std::string(key.str()).c_str()));
 }
 
 } // namespace pong

@@ -6,7 +6,7 @@
 namespace pong
 {
 
-std::string format(const char *text, ...)
+std::string sentence(const char *text, ...)
 {
 	char buffer[sizeof(pong_error::text)];
 	va_list arguments;

@@ -15,7 +15,7 @@ struct Fault {
 	std::string text;
 };
 
-std::string format(const char *text, ...) __attribute__((format(printf, 1, 2)));
+std::string sentence(const char *text, ...) __attribute__((format(printf, 1, 2)));
 
 // Write the sentence, cut to fit, where the caller wants one.
 void set_error(pong_error *error, const char *text);

@@ -75,6 +75,7 @@ struct Balls {
 
 // One camera's stages, from picture to centres.
 struct Side {
+	pong_camera camera;
 	Region region;
 	Detector detector;
 	PictureRing pictures;
@@ -91,13 +92,20 @@ Side make_side(const pong_rig &rig, pong_side side, const pong_settings &setting
 	Detector detector(pong_detector_new(region.get(), &settings, &error));
 	if (!detector)
 		throw Fault{PONG_ERROR_MEMORY, error.text};
-	return {std::move(region),
+	return {camera,
+		std::move(region),
 		std::move(detector),
 		PictureRing(camera.width, camera.height, 2 * settings.detect.gap),
 		{}};
 }
 
-void look(Side &side, const pong_image &image, const pong_window *window, const pong_settings &settings)
+// Where the ball that is followed must be now: in which window, and how far its picture moves during the exposure.
+struct Expectation {
+	const pong_window *window; // null: anywhere
+	const double *streak;      // null: unknown
+};
+
+void look(Side &side, const pong_image &image, const Expectation &expected, const pong_settings &settings)
 {
 	side.balls.count = 0;
 	if (side.pictures.empty())
@@ -105,10 +113,11 @@ void look(Side &side, const pong_image &image, const pong_window *window, const 
 	pong_detection found[balls_capacity];
 	const size_t gap = static_cast<size_t>(settings.detect.gap);
 	const pong_pictures pictures = {image, {side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
-	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
+	const int count = pong_detect(side.detector.get(), &pictures, expected.window, found, balls_capacity);
 	for (int i = 0; i < count; i++) {
 		Balls &balls = side.balls;
-		if (!pong_locate(&pictures, &found[i], &settings, &balls.centre[balls.count]))
+		if (!pong_locate(&side.camera, &pictures, &found[i], expected.streak, &settings,
+				 &balls.centre[balls.count]))
 			continue;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
@@ -180,9 +189,16 @@ bool find_ball(pong_eye &eye, int64_t utime, const pong_image image[2], pong_sig
 		expecting &&
 		pong_window_around(&eye.rig, PONG_LEFT, expected.position, &eye.settings, &window[PONG_LEFT]) &&
 		pong_window_around(&eye.rig, PONG_RIGHT, expected.position, &eye.settings, &window[PONG_RIGHT]);
+	double streak[2][2];
+	bool streaked[2];
+	for (int side = 0; side < 2; side++)
+		streaked[side] = expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
+							  eye.settings.locate.exposure, streak[side]);
 	for (;;) {
 		for (int side = 0; side < 2; side++) {
-			look(eye.side[side], image[side], sight->windowed ? &window[side] : nullptr, eye.settings);
+			look(eye.side[side], image[side],
+			     {sight->windowed ? &window[side] : nullptr, streaked[side] ? streak[side] : nullptr},
+			     eye.settings);
 			sight->detections[side] = eye.side[side].balls.count;
 		}
 		if (match_sides(eye, expecting ? &expected : nullptr, match))
@@ -244,8 +260,8 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 void check_size(const pong_camera &camera, const pong_image &image, const char *name)
 {
 	if (image.width != camera.width || image.height != camera.height)
-		throw Fault{PONG_ERROR_VALUE, format("the %s picture is %d x %d, its camera in the rig %d x %d", name,
-						     image.width, image.height, camera.width, camera.height)};
+		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d", name,
+						       image.width, image.height, camera.width, camera.height)};
 }
 
 int push(pong_eye &eye, int64_t utime, int64_t frame, const pong_image image[2], pong_sight *sight)

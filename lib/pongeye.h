@@ -258,6 +258,7 @@ typedef enum pong_detect_method {
 typedef enum pong_locate_method {
 	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
 	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
+	PONG_LOCATE_EDGES = 2,    /* a sphere's outline fitted to edges on rays */
 } pong_locate_method;
 
 typedef enum pong_state_method {
@@ -280,8 +281,8 @@ typedef struct pong_settings {
 	} detect;
 	struct {
 		pong_locate_method method;
-		double sigma; /* standard deviation of a centre, per axis, px: what the covariance of a point rests on
-			       */
+		double sigma;    /* standard deviation of a centre, per axis, px, where the method tells none */
+		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown */
 	} locate;
 	struct {
 		double epipolar;      /* a pair's centres lie at most this far from each other's epipolar lines, px; */
@@ -381,9 +382,16 @@ typedef struct pong_centre {
 	double covariance[2][2]; /* of u, v; px^2 */
 } pong_centre;
 
-/* Fit the centre of a detected ball. Returns PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
-PONG_API int pong_locate(const pong_pictures *pictures, const pong_detection *detection, const pong_settings *settings,
-			 pong_centre *centre);
+/* Fit the centre of a detected ball: where the sphere's centre is seen in the middle of the exposure. `streak` is how
+ * far the ball's picture moves during the exposure, px, as pong_streak tells; NULL where that is unknown. Returns
+ * PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
+PONG_API int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const pong_detection *detection,
+			 const double streak[2], const pong_settings *settings, pong_centre *centre);
+
+/* How far a ball at a position (m), with a velocity (m/s), moves in the picture during an exposure (s), px.
+ * Returns PONG_FOUND, or PONG_NONE where the ball is not in front of the camera. */
+PONG_API int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
+			 double streak[2]);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Reconstruct: from two centres to a point in the table frame (paper, section 5 and appendix)

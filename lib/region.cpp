@@ -85,9 +85,10 @@ pong_region *make_region(const pong_rig &rig, pong_side side, const pong_setting
 	const bool empty = std::all_of(region.rows.begin(), region.rows.end(),
 				       [](const pong_region_row &row) { return row.begin == row.end; });
 	if (empty)
-		throw Fault{PONG_ERROR_VALUE,
-			    format("the %s camera does not see the space above the table: is its P in the table frame?",
-				   side == PONG_LEFT ? "left" : "right")};
+		throw Fault{
+			PONG_ERROR_VALUE,
+			sentence("the %s camera does not see the space above the table: is its P in the table frame?",
+				 side == PONG_LEFT ? "left" : "right")};
 	return new pong_region(region);
 }
 

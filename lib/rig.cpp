@@ -77,7 +77,8 @@ pong_camera read_camera(const Document &document, const char *section)
 	if (document.has(section, "camera")) {
 		const std::string id = document.text(section, "camera");
 		if (id.size() >= sizeof camera.id)
-			document.refuse(section, "camera", format("is longer than %zu letters", sizeof camera.id - 1));
+			document.refuse(section, "camera",
+					sentence("is longer than %zu letters", sizeof camera.id - 1));
 		memcpy(camera.id, id.c_str(), id.size() + 1);
 	}
 	const auto size = document.numbers(section, "size", 2);
@@ -144,7 +145,7 @@ std::string quoted(const std::string &text)
 std::string write_camera(const pong_camera &camera, const char *section)
 {
 	return std::string("\n[") + section + "]\n" + (camera.id[0] ? "camera = " + quoted(camera.id) + "\n" : "") +
-	       format("size = [%d, %d]\n", camera.width, camera.height) + "P = " + list(&camera.P[0][0], 12, 4) +
+	       sentence("size = [%d, %d]\n", camera.width, camera.height) + "P = " + list(&camera.P[0][0], 12, 4) +
 	       "\ndistortion = " + list(camera.distortion, 5, 5) + "\n";
 }
 

@@ -25,6 +25,7 @@ void read_numbers(const Document &document, pong_settings &settings)
 		{"region", "behind", &settings.region.behind, 0, 20},
 		{"detect", "contrast", &settings.detect.contrast, 1, 255},
 		{"locate", "sigma", &settings.locate.sigma, 0.001, 10},
+		{"locate", "exposure", &settings.locate.exposure, 0, 0.1},
 		{"reconstruct", "epipolar", &settings.reconstruct.epipolar, 0.01, 100},
 		{"reconstruct", "epipolar_size", &settings.reconstruct.epipolar_size, 0, 10},
 		{"reconstruct", "size", &settings.reconstruct.size, 0.01, 10},
@@ -62,7 +63,7 @@ void read_settings(const Document &document, pong_settings &settings)
 	const std::pair<const char *, std::vector<std::string>> sections[] = {
 		{"region", {"ceiling", "margin", "behind", "distance"}},
 		{"detect", {"method", "gap", "contrast"}},
-		{"locate", {"method", "sigma"}},
+		{"locate", {"method", "sigma", "exposure"}},
 		{"reconstruct", {"epipolar", "epipolar_size", "size"}},
 		{"track", {"state", "gate", "gate_rate", "lost", "speed"}},
 		{"predict", {"step", "horizon", "path_step"}},
@@ -86,7 +87,7 @@ void read_settings(const Document &document, pong_settings &settings)
 		settings.detect.gap = static_cast<int>(document.number("detect", "gap", 1, PONG_GAP_MAX));
 	if (document.has("locate", "method"))
 		settings.locate.method = static_cast<pong_locate_method>(
-			read_word(document, "locate", "method", {"gaussian", "centroid"}));
+			read_word(document, "locate", "method", {"gaussian", "centroid", "edges"}));
 	if (document.has("track", "state"))
 		settings.track.state =
 			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves"}));
@@ -107,7 +108,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;
 	settings->detect.gap = 8;
 	settings->detect.contrast = 8;
-	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_CENTROID;
+	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_EDGES;
 	settings->locate.sigma = 0.3;
 	settings->reconstruct.epipolar = 1.5;
 	settings->reconstruct.epipolar_size = 0.1;

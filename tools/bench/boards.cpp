@@ -51,7 +51,8 @@ bool wholly_seen(const TrueRig &rig, const BoardShape &shape, const Matrix4d &bo
 	for (const TrueCamera &camera : rig.camera)
 		for (int row = 0; row < shape.rows; row += shape.rows - 1)
 			for (int column = 0; column < shape.columns; column += shape.columns - 1)
-				if (!camera.see((board * corner_place(shape, column, row).homogeneous()).head<3>(), pixel))
+				if (!camera.see((board * corner_place(shape, column, row).homogeneous()).head<3>(),
+						pixel))
 					return false;
 	return true;
 }
@@ -84,8 +85,11 @@ void see_board(const TrueRig &rig, const Session &session, Recording &recording,
 			if (!rig.camera[side].see((board * place.homogeneous()).head<3>(), pixel))
 				continue;
 			const double du = normal(random), dv = normal(random);
-			recording.corners.push_back({static_cast<int>(recording.poses.size()) - 1, side, point,
-						     {place.x(), place.y(), place.z()}, {pixel.x() + du, pixel.y() + dv}});
+			recording.corners.push_back({static_cast<int>(recording.poses.size()) - 1,
+						     side,
+						     point,
+						     {place.x(), place.y(), place.z()},
+						     {pixel.x() + du, pixel.y() + dv}});
 		}
 }
 
@@ -122,8 +126,15 @@ TrueRig true_rig(double k1)
 	TrueRig rig;
 	for (const int side : {0, 1}) {
 		const double s = side ? 1 : -1;
-		rig.camera[side] = {f * (1 + 0.002 * s), f * (1 + 0.002 * s), 319.5 + 6 * s, 235.5, k1, 0,
-				    k1 == 0 ? 0 : 0.0004 * s, k1 == 0 ? 0 : -0.0003, turn({0.004 * s, 0.007, 0.003 * s}) * R,
+		rig.camera[side] = {f * (1 + 0.002 * s),
+				    f * (1 + 0.002 * s),
+				    319.5 + 6 * s,
+				    235.5,
+				    k1,
+				    0,
+				    k1 == 0 ? 0 : 0.0004 * s,
+				    k1 == 0 ? 0 : -0.0003,
+				    turn({0.004 * s, 0.007, 0.003 * s}) * R,
 				    {-s * 0.09, 0.5, -0.4}};
 	}
 	return rig;

@@ -39,12 +39,12 @@ struct BoardShape {
 
 // What happened during a simulated calibration.
 struct Session {
-	double noise = 0.1;      // of a corner, per axis, px
-	double placement = 0;    // of a plane, per axis, m
-	double tilt = 0;         // of a plane, about each axis, rad
-	int boards = 20;         // held at will, besides the planes
-	bool planes = true;      // at z = 0.2, 0.4, 0.6, 0.8 m
-	double farthest = 2.5;   // distance of boards held at will, m; the nearest is 0.6
+	double noise = 0.1;    // of a corner, per axis, px
+	double placement = 0;  // of a plane, per axis, m
+	double tilt = 0;       // of a plane, about each axis, rad
+	int boards = 20;       // held at will, besides the planes
+	bool planes = true;    // at z = 0.2, 0.4, 0.6, 0.8 m
+	double farthest = 2.5; // distance of boards held at will, m; the nearest is 0.6
 	BoardShape shape;
 };
 
@@ -64,6 +64,7 @@ struct VolumeError {
 	double mean, rms;
 };
 
-VolumeError volume_error(const TrueRig &truth, const pong_camera camera[2], const std::vector<Eigen::Vector3d> &positions);
+VolumeError volume_error(const TrueRig &truth, const pong_camera camera[2],
+			 const std::vector<Eigen::Vector3d> &positions);
 
 } // namespace pong

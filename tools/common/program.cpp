@@ -1,5 +1,6 @@
 #include "program.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
@@ -11,11 +12,13 @@ namespace
 {
 
 const char *program_name = "pongeye";
-volatile std::sig_atomic_t stop;
+// Lock-free, so that a signal handler may set it, and other threads than main may look at it.
+std::atomic<bool> stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void on_signal(int)
 {
-	stop = 1;
+	stop = true;
 }
 
 // Without SA_RESTART, so that a blocking call returns and the loop sees the request.
@@ -67,7 +70,7 @@ bool stop_requested()
 
 void request_stop()
 {
-	stop = 1;
+	stop = true;
 }
 
 } // namespace pong

@@ -1,0 +1,212 @@
+// The stages joined: flights drawn by the test, pushed pair by pair.
+#include <cmath>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <memory>
+#include <new>
+
+#include "pictures.hpp"
+#include "rigs.hpp"
+
+// Every allocation is counted, so that a test can show that the steady loop makes none.
+static long allocations;
+
+void *operator new(size_t size)
+{
+	allocations++;
+	if (void *memory = malloc(size))
+		return memory;
+	throw std::bad_alloc();
+}
+
+void operator delete(void *memory) noexcept
+{
+	free(memory);
+}
+
+void operator delete(void *memory, size_t) noexcept
+{
+	free(memory);
+}
+
+namespace
+{
+
+struct Freed {
+	void operator()(pong_eye *eye) const
+	{
+		pong_eye_free(eye);
+	}
+};
+
+const double fps = 110;
+
+// A ball on a parabola, drawn as a disc in both pictures.
+class Scene
+{
+public:
+	explicit Scene(pong_profile profile) : rig_(test_rig())
+	{
+		pong_settings settings;
+		pong_settings_defaults(profile, &settings);
+		eye_.reset(pong_eye_new(&rig_, &settings, nullptr));
+		std::copy_n(begin_, 3, position_);
+		std::copy_n(speed_, 3, velocity_);
+	}
+
+	// One frame: with the ball or without.
+	int push(bool ball)
+	{
+		frame_++;
+		const double t = 1 / fps;
+		for (int axis = 0; axis < 3; axis++)
+			position_[axis] += velocity_[axis] * t;
+		position_[1] -= 9.8 / 2 * t * t;
+		velocity_[1] -= 9.8 * t;
+		Picture pictures[2] = {Picture(640, 480, 40), Picture(640, 480, 40)};
+		for (int side = 0; side < 2; side++) {
+			double uv[2];
+			pong_project(&rig_.camera[side], position_, uv);
+			const double radius = pong_apparent_size(&rig_.camera[side], position_, 0.040) / 2;
+			if (ball)
+				pictures[side].draw_ball(uv[0], uv[1], radius, 200);
+			pictures[side].add_noise(1.2, static_cast<unsigned>(2 * frame_ + side));
+		}
+		const pong_image left = pictures[0].image(), right = pictures[1].image();
+		const long before = allocations;
+		const int code = pong_eye_push(eye_.get(), std::llround(frame_ * 1e6 / fps), frame_, &left, &right,
+					       &sight, &error);
+		allocated += allocations - before;
+		return code;
+	}
+
+	void restart()
+	{
+		std::copy_n(begin_, 3, position_);
+		std::copy_n(speed_, 3, velocity_);
+	}
+
+	double error_to_truth() const
+	{
+		return std::hypot(sight.ball.position[0] - position_[0], sight.ball.position[1] - position_[1],
+				  sight.ball.position[2] - position_[2]);
+	}
+
+	// When and where the parabola comes to z = 0.
+	double hit_x() const
+	{
+		return position_[0] - velocity_[0] * position_[2] / velocity_[2];
+	}
+
+	pong_eye *eye() const
+	{
+		return eye_.get();
+	}
+
+	pong_sight sight = {};
+	pong_error error = {};
+	long allocated = 0;
+
+private:
+	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1, -6};
+	pong_rig rig_;
+	std::unique_ptr<pong_eye, Freed> eye_;
+	double position_[3], velocity_[3];
+	int frame_ = 0;
+};
+
+constexpr double Scene::begin_[3], Scene::speed_[3];
+
+class Eye : public testing::TestWithParam<pong_profile>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Profiles, Eye, testing::Values(PONG_PAPER, PONG_BEST),
+			 [](const auto &profile) { return profile.param == PONG_PAPER ? "paper" : "best"; });
+
+TEST_P(Eye, FollowsABallAndPredictsItsHit)
+{
+	Scene scene(GetParam());
+	for (int i = 0; i < 3; i++)
+		EXPECT_EQ(scene.push(false), PONG_NONE);
+	scene.restart();
+	int found = 0, windowed = 0;
+	for (int i = 0; i < 30; i++) {
+		found += scene.push(true) == PONG_FOUND;
+		if (!scene.sight.has_ball)
+			continue;
+		EXPECT_LT(scene.error_to_truth(), 0.05);
+		EXPECT_EQ(scene.sight.ball.track, 1);
+		windowed += scene.sight.windowed;
+	}
+	EXPECT_GE(found, 29);
+	EXPECT_GE(windowed, 20);
+	ASSERT_TRUE(scene.sight.has_prediction && scene.sight.prediction.has_hit);
+	EXPECT_NEAR(scene.sight.prediction.hit.position[2], 0, 1e-9);
+	EXPECT_NEAR(scene.sight.prediction.hit.position[0], scene.hit_x(), 0.08);
+	EXPECT_NEAR(scene.sight.ball.velocity[2], -6, 1.0);
+}
+
+TEST_P(Eye, LosesTheBallAndFindsTheNextOne)
+{
+	Scene scene(GetParam());
+	for (int flight = 1; flight <= 2; flight++) {
+		for (int i = 0; i < 25; i++)
+			EXPECT_EQ(scene.push(false), PONG_NONE);
+		EXPECT_EQ(scene.sight.outcome, PONG_NOTHING);
+		scene.restart();
+		for (int i = 0; i < 12; i++)
+			scene.push(true);
+		ASSERT_TRUE(scene.sight.has_ball);
+		EXPECT_EQ(scene.sight.ball.track, flight);
+		EXPECT_LE(scene.sight.observations, 12);
+	}
+}
+
+TEST_P(Eye, SeesNothingWhereNothingMoves)
+{
+	Scene scene(GetParam());
+	for (int i = 0; i < 20; i++) {
+		EXPECT_EQ(scene.push(false), PONG_NONE);
+		EXPECT_EQ(scene.sight.outcome, PONG_NOTHING);
+	}
+}
+
+TEST_P(Eye, AllocatesNothingInTheSteadyLoop)
+{
+	Scene scene(GetParam());
+	for (int i = 0; i < 3; i++)
+		scene.push(false);
+	scene.restart();
+	scene.allocated = 0;
+	for (int i = 0; i < 20; i++)
+		scene.push(true);
+	EXPECT_TRUE(scene.sight.has_prediction);
+	EXPECT_EQ(scene.allocated, 0);
+}
+
+TEST_P(Eye, DropsPairsThatAreNotLater)
+{
+	Scene scene(GetParam());
+	scene.push(false);
+	const Picture picture(640, 480, 40);
+	const pong_image image = picture.image();
+	pong_sight sight;
+	EXPECT_EQ(pong_eye_push(scene.eye(), 5, 1, &image, &image, &sight, nullptr), PONG_NONE);
+	EXPECT_EQ(sight.outcome, PONG_OUT_OF_ORDER);
+	EXPECT_EQ(sight.has_ball, 0);
+}
+
+TEST_P(Eye, RefusesPicturesOfAnotherSize)
+{
+	Scene scene(GetParam());
+	const Picture picture(640, 480, 40), small(320, 240, 40);
+	const pong_image image = picture.image(), wrong = small.image();
+	pong_sight sight;
+	pong_error error;
+	EXPECT_EQ(pong_eye_push(scene.eye(), 5, 1, &image, &wrong, &sight, &error), PONG_ERROR_VALUE);
+	EXPECT_STREQ(error.text, "the right picture is 320 x 240, its camera in the rig 640 x 480");
+	EXPECT_EQ(sight.has_ball, 0);
+}
+
+} // namespace

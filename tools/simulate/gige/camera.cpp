@@ -1,0 +1,232 @@
+#include "camera.hpp"
+
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clock.hpp"
+
+namespace gige
+{
+
+namespace
+{
+
+constexpr int64_t readout = 300000;      // from the exposure's end to the first packet, ns
+constexpr int64_t idle_wait = 100000000; // how often a still camera looks around, ns
+constexpr int64_t patience = 4000000;    // a picture later than this is stale, ns
+constexpr size_t ethernet_overhead = 38; // preamble, header, check sum, gap: bytes that a packet costs the link
+constexpr int64_t burst = 200000;        // packets leave up to this early: fewer wake-ups than one a packet, ns
+
+// Every camera has its own clock; that of camera 0 began 1 s before power-on, that of camera 1 2 s before, and so on.
+int64_t clock_begin(int index)
+{
+	return monotonic_now() - (index + 1) * nanoseconds(1);
+}
+
+ControlSettings control_settings(const ServerSettings &settings, int index)
+{
+	const CameraSettings &camera = settings.cameras[static_cast<size_t>(index)];
+	return {parse_address(camera.address.c_str()),
+		camera.serial,
+		settings.width,
+		settings.height,
+		settings.exposure,
+		clock_begin(index)};
+}
+
+// Gain is an amplifier's: a factor of 10^(gain / 20), gain in dB.
+void brighten(Bytes &pixels, double gain)
+{
+	const double factor = std::pow(10.0, gain / 20);
+	uint8_t brighter[256];
+	for (int value = 0; value < 256; value++)
+		brighter[value] = static_cast<uint8_t>(std::min(255.0, std::round(value * factor)));
+	for (uint8_t &pixel : pixels)
+		pixel = brighter[pixel];
+}
+
+uint32_t address_of(const ServerSettings &settings, int index)
+{
+	return parse_address(settings.cameras[static_cast<size_t>(index)].address.c_str());
+}
+
+} // namespace
+
+Camera::Camera(const ServerSettings &settings, int index, const TriggerLine &line, PictureSource &source)
+	: index_(index), width_(settings.width), height_(settings.height), link_rate_(settings.link_rate), line_(line),
+	  source_(source), control_socket_({address_of(settings, index), gvcp::port}),
+	  stream_socket_({address_of(settings, index), 0}), control_(control_settings(settings, index), ring_),
+	  pixels_(static_cast<size_t>(width_) * static_cast<size_t>(height_))
+{
+	control_.set_stream_source_port(stream_socket_.port());
+}
+
+Camera::~Camera()
+{
+	power_down();
+}
+
+void Camera::power_up()
+{
+	is_on_ = true;
+	thread_ = std::thread([this] { expose_pictures(); });
+}
+
+void Camera::power_down()
+{
+	is_on_ = false;
+	control_.finish(control_.acquisition().session);
+	if (thread_.joinable())
+		thread_.join();
+}
+
+void Camera::serve()
+{
+	Bytes datagram;
+	Endpoint from;
+	for (int i = 0; i < datagrams_a_round && control_socket_.receive(datagram, from); i++) {
+		const Answer answer = control_.handle(datagram.data(), datagram.size(), from, monotonic_now());
+		if (!answer.reply.empty())
+			control_socket_.send(from, answer.reply);
+		for (const Bytes &packet : answer.stream)
+			stream_socket_.send(answer.destination, packet);
+	}
+}
+
+void Camera::answer_discovery(const Bytes &datagram, const Endpoint &from)
+{
+	const Bytes reply = control_.discover(datagram.data(), datagram.size());
+	if (!reply.empty())
+		control_socket_.send(from, reply);
+}
+
+void Camera::expose_pictures()
+{
+	prctl(PR_SET_TIMERSLACK, 1000); // ns: waits end when they should, not 50 us later
+	while (is_on_) {
+		const Acquisition acquisition = control_.acquisition();
+		if (acquisition.session && acquisition.session != session_)
+			begin_session(acquisition);
+		const std::optional<Shot> shot = acquisition.session ? plan(acquisition) : std::nullopt;
+		if (shot)
+			take(*shot, acquisition);
+		else
+			control_.wait_for_change(monotonic_now() + idle_wait, acquisition);
+	}
+}
+
+void Camera::begin_session(const Acquisition &acquisition)
+{
+	session_ = acquisition.session;
+	session_begin_ = monotonic_now();
+	software_triggers_ = acquisition.software_triggers;
+	frame_id_ = 0;
+	ring_.clear();
+}
+
+// The next exposure that can still be had: the sensor must be free, and there must be time to render the picture until
+// it is due.
+std::optional<Camera::Shot> Camera::plan(const Acquisition &acquisition)
+{
+	const int64_t rendered = monotonic_now() + render_time_;
+	const int64_t earliest = std::max(sensor_free_, rendered - nanoseconds(acquisition.exposure) - readout);
+	if (!acquisition.is_triggered)
+		return plan_free(acquisition, earliest);
+	return acquisition.by_line ? plan_by_line(earliest) : plan_by_software(acquisition);
+}
+
+std::optional<Camera::Shot> Camera::plan_by_line(int64_t earliest) const
+{
+	const std::optional<Pulse> pulse = line_.next(earliest);
+	if (!pulse)
+		return std::nullopt;
+	return Shot{pulse->time, pulse->number, true, false};
+}
+
+// Several triggers that come while a picture is under way make one more picture.
+std::optional<Camera::Shot> Camera::plan_by_software(const Acquisition &acquisition)
+{
+	if (software_triggers_ == acquisition.software_triggers)
+		return std::nullopt;
+	software_triggers_ = acquisition.software_triggers;
+	const int64_t start = std::max(sensor_free_, monotonic_now());
+	return Shot{start, line_.number_at(start), false, true};
+}
+
+Camera::Shot Camera::plan_free(const Acquisition &acquisition, int64_t earliest) const
+{
+	const Schedule schedule{session_begin_, acquisition.frame_rate};
+	const int64_t start = schedule.time(schedule.first_from(earliest));
+	return {start, line_.number_at(start), false, false};
+}
+
+// Rendered before it is due, sent when it is: or not at all, where the machine was too busy to render it in time.
+void Camera::take(const Shot &shot, const Acquisition &acquisition)
+{
+	const int64_t end = shot.start + nanoseconds(acquisition.exposure);
+	sensor_free_ = std::max(end, shot.start + 1);
+	render(shot, acquisition);
+	if (!control_.wait_in_session(end + readout, acquisition.session))
+		return;
+	if (!shot.can_wait && monotonic_now() > end + readout + patience)
+		return;
+	stream(compose(shot, acquisition), acquisition);
+	if (acquisition.is_single_frame)
+		control_.finish(acquisition.session);
+}
+
+void Camera::render(const Shot &shot, const Acquisition &acquisition)
+{
+	const int64_t begin = monotonic_now();
+	source_.render(index_, shot.pulse, acquisition.exposure, pixels_.data());
+	render_time_ += (monotonic_now() - begin - render_time_) / 8; // a running mean
+}
+
+const Frame &Camera::compose(const Shot &shot, const Acquisition &acquisition)
+{
+	if (++frame_id_ == 0)
+		frame_id_ = 1; // 0 is no frame id
+	frame_.id = frame_id_;
+	frame_.timestamp = control_.device_time(shot.start);
+	frame_.region = acquisition.region;
+	frame_.has_chunks = acquisition.has_chunks;
+	frame_.packet_size = acquisition.packet_size;
+	crop(acquisition.region);
+	if (acquisition.gain > 0)
+		brighten(frame_.data, acquisition.gain);
+	if (frame_.has_chunks)
+		append_chunks(frame_, {static_cast<float>(acquisition.exposure * 1e6), shot.is_by_line ? 1u : 0u,
+				       static_cast<uint32_t>(shot.is_by_line ? shot.pulse : line_.count())});
+	return ring_.add(frame_);
+}
+
+// The region of interest.
+void Camera::crop(const Region &region)
+{
+	frame_.data.resize(static_cast<size_t>(region.width) * region.height);
+	for (uint32_t row = 0; row < region.height; row++) {
+		const uint8_t *from = &pixels_[(row + region.y) * static_cast<size_t>(width_) + region.x];
+		std::copy(from, from + region.width, &frame_.data[static_cast<size_t>(row) * region.width]);
+	}
+}
+
+// The last packet leaves when the link could have carried them all, none much before its turn.
+void Camera::stream(const Frame &frame, const Acquisition &acquisition)
+{
+	if (acquisition.destination.port == 0)
+		return;
+	const size_t count = packet_count(frame);
+	int64_t due = monotonic_now();
+	for (size_t i = 0; i < count; i++) {
+		make_packet(frame, i, Status::success, datagram_);
+		const size_t bytes = datagram_.size() + gvsp::ip_udp_size + ethernet_overhead;
+		due += nanoseconds(static_cast<double>(bytes) * 8 / link_rate_) + acquisition.packet_delay;
+		if (i + 1 == count || due > monotonic_now() + burst)
+			sleep_until(due);
+		stream_socket_.send(acquisition.destination, datagram_);
+	}
+}
+
+} // namespace gige

@@ -1,0 +1,89 @@
+// One camera: a control channel, a sensor that is exposed by the trigger line (or runs freely), and the stream that
+// its pictures leave on.
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+#include "control.hpp"
+#include "server.hpp"
+#include "trigger_line.hpp"
+#include "udp_socket.hpp"
+
+namespace gige
+{
+
+// A flood of datagrams must not keep the rest of the server from its work.
+constexpr int datagrams_a_round = 64;
+
+class Camera
+{
+public:
+	Camera(const ServerSettings &settings, int index, const TriggerLine &line, PictureSource &source);
+	~Camera();
+
+	// Begin and end exposing, in a thread of its own.
+	void power_up();
+	void power_down();
+
+	Control &control()
+	{
+		return control_;
+	}
+
+	// Answer whatever has come to the control port, and where to wait for it.
+	void serve();
+	int control_descriptor() const
+	{
+		return control_socket_.descriptor();
+	}
+
+	// Answer a discovery command from the broadcast address.
+	void answer_discovery(const Bytes &datagram, const Endpoint &from);
+
+private:
+	// One exposure to be: when it begins, and which pulse's picture it is.
+	struct Shot {
+		int64_t start; // ns of CLOCK_MONOTONIC
+		int64_t pulse;
+		bool is_by_line;
+		bool can_wait; // for its picture, however long it takes to render
+	};
+
+	void expose_pictures();
+	std::optional<Shot> plan(const Acquisition &acquisition);
+	std::optional<Shot> plan_by_line(int64_t earliest) const;
+	std::optional<Shot> plan_by_software(const Acquisition &acquisition);
+	Shot plan_free(const Acquisition &acquisition, int64_t earliest) const;
+	void begin_session(const Acquisition &acquisition);
+	void take(const Shot &shot, const Acquisition &acquisition);
+	void render(const Shot &shot, const Acquisition &acquisition);
+	const Frame &compose(const Shot &shot, const Acquisition &acquisition);
+	void crop(const Region &region);
+	void stream(const Frame &frame, const Acquisition &acquisition);
+
+	const int index_;
+	const int width_, height_; // of the sensor, px
+	const double link_rate_;   // bit/s
+	const TriggerLine &line_;
+	PictureSource &source_;
+	const UdpSocket control_socket_, stream_socket_;
+	FrameRing ring_;
+	Control control_;
+
+	std::atomic<bool> is_on_ = false;
+	std::thread thread_;
+
+	// Of the thread alone.
+	Bytes pixels_;
+	Frame frame_;
+	Bytes datagram_;
+	uint64_t session_ = 0;
+	uint64_t software_triggers_ = 0; // that have been taken
+	uint16_t frame_id_ = 0;
+	int64_t session_begin_ = 0;
+	int64_t sensor_free_ = 0; // when the sensor can be exposed again, ns
+	int64_t render_time_ = 0; // that a picture takes, of late, ns
+};
+
+} // namespace gige

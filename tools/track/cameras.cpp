@@ -1,0 +1,228 @@
+#include "cameras.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include "aravis_camera.hpp"
+#include "clock.hpp"
+#include "fifo.hpp"
+#include "pairing.hpp"
+#include "program.hpp"
+
+namespace track
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto PATIENCE = 100ms;                    // how long next() waits
+constexpr auto CLOCK_INTERVAL = 1s;                 // between comparisons of the clocks
+constexpr int64_t SILENCE_NS = INT64_C(2000000000); // without pictures, then the user is told
+constexpr size_t QUEUE = 64;                        // all the buffers of both cameras
+
+// Hands pictures from the cameras' threads to the one that tracks.
+class Mailbox
+{
+public:
+	struct Letter {
+		pong_side side;
+		Picture picture;
+	};
+
+	void put(const Letter &letter)
+	{
+		{
+			const std::lock_guard<std::mutex> lock(mutex_);
+			letters_.push(letter);
+		}
+		arrived_.notify_one();
+	}
+
+	// False where none comes in time.
+	bool take(Letter &letter, std::chrono::milliseconds patience)
+	{
+		std::unique_lock<std::mutex> lock(mutex_);
+		if (!arrived_.wait_for(lock, patience, [this] { return !letters_.empty(); }))
+			return false;
+		letter = letters_.pop();
+		return true;
+	}
+
+private:
+	std::mutex mutex_;
+	std::condition_variable arrived_;
+	Fifo<Letter, QUEUE> letters_;
+};
+
+// Calls a function again and again in a thread of its own.
+class Ticker
+{
+public:
+	template<class Function>
+	Ticker(std::chrono::milliseconds interval, Function function)
+		: thread_([this, interval, function] {
+			  std::unique_lock<std::mutex> lock(mutex_);
+			  while (!wake_.wait_for(lock, interval, [this] { return stop_; }))
+				  function();
+		  })
+	{
+	}
+
+	~Ticker()
+	{
+		{
+			const std::lock_guard<std::mutex> lock(mutex_);
+			stop_ = true;
+		}
+		wake_.notify_one();
+		thread_.join();
+	}
+
+private:
+	std::mutex mutex_;
+	std::condition_variable wake_;
+	bool stop_ = false;
+	std::thread thread_;
+};
+
+class CameraSource : public Source
+{
+public:
+	CameraSource(const pong_rig &rig, const CaptureSettings &settings)
+		: pairing_(settings.rate, [this](pong_side side, const Picture &picture) { give_back(side, picture); }),
+		  heard_ns_{monotonic_ns(), monotonic_ns()}
+	{
+		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+			cameras_[side] = std::make_unique<Camera>(side, rig.camera[side], settings,
+								  [this](pong_side from, const Picture &picture) {
+									  mailbox_.put({from, picture});
+								  });
+		for (const auto &camera : cameras_)
+			camera->start();
+		clock_reader_ = std::make_unique<Ticker>(CLOCK_INTERVAL, [this] {
+			for (const auto &camera : cameras_)
+				camera->read_clock();
+		});
+	}
+
+	// First the cameras end, so that nothing comes any more; then what is still here is freed.
+	~CameraSource() override
+	{
+		clock_reader_.reset();
+		for (auto &camera : cameras_)
+			camera.reset();
+		give_back_pair();
+		pairing_.clear();
+		for (Mailbox::Letter letter; mailbox_.take(letter, 0ms);)
+			give_back(letter.side, letter.picture);
+	}
+
+	Next next(StereoPair &pair) override
+	{
+		give_back_pair();
+		has_pair_ = pairing_.pop(pair_);
+		if (!has_pair_) {
+			receive();
+			has_pair_ = pairing_.pop(pair_);
+		}
+		if (!has_pair_)
+			return Next::NOTHING_YET;
+		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
+		pair = {pair_.utime, pair_.frame, image_of(left.buffer), image_of(right.buffer),
+			std::max(left.arrival_ns, right.arrival_ns)};
+		return Next::PAIR;
+	}
+
+	Dropped dropped() const override
+	{
+		Dropped dropped;
+		dropped.unpaired = pairing_.unpaired();
+		for (const auto &camera : cameras_) {
+			dropped.incomplete += camera->incomplete();
+			dropped.late += camera->late();
+		}
+		return dropped;
+	}
+
+private:
+	// Wait for one more picture.
+	void receive()
+	{
+		Mailbox::Letter letter;
+		if (mailbox_.take(letter, PATIENCE)) {
+			heard_ns_[letter.side] = monotonic_ns();
+			told_[letter.side] = false;
+			pairing_.push(letter.side, letter.picture);
+		}
+		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+			check_camera(side);
+	}
+
+	// Whether pictures still come, and if not, why.
+	void check_camera(pong_side side)
+	{
+		const Camera &camera = *cameras_[side];
+		if (camera.lost())
+			throw pong::Failure(camera.name() + ": lost: it no longer answers");
+		if (told_[side] || monotonic_ns() - heard_ns_[side] < SILENCE_NS)
+			return;
+		pong::say(camera.name() + ": ready, but no whole picture has come for 2 s: does the trigger run?");
+		told_[side] = true;
+	}
+
+	void give_back(pong_side side, const Picture &picture)
+	{
+		if (cameras_[side])
+			cameras_[side]->give_back(picture.buffer);
+		else
+			free_buffer(picture.buffer);
+	}
+
+	void give_back_pair()
+	{
+		if (has_pair_)
+			for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+				give_back(side, pair_.picture[side]);
+		has_pair_ = false;
+	}
+
+	Mailbox mailbox_;                                // outlives the cameras, which put pictures into it
+	std::array<std::unique_ptr<Camera>, 2> cameras_; // by pong_side
+	Pairing pairing_;
+	PicturePair pair_; // lent to the caller
+	bool has_pair_ = false;
+	int64_t heard_ns_[2];           // by pong_side: when the last picture came
+	bool told_[2] = {false, false}; // and whether the user knows that none comes
+	std::unique_ptr<Ticker> clock_reader_;
+};
+
+void check_ids(const pong_rig &rig)
+{
+	const char *const names[] = {"left", "right"};
+	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+		if (!*rig.camera[side].id)
+			throw pong::Failure(
+				pong::format("the rig names no %s camera: add camera = \"address or id\" to [%s] "
+					     "in rig.toml, or give --images DIR",
+					     names[side], names[side]));
+	if (strcmp(rig.camera[PONG_LEFT].id, rig.camera[PONG_RIGHT].id) == 0)
+		throw pong::Failure(pong::format("the rig names the same camera, %s, for left and right",
+						 rig.camera[PONG_LEFT].id));
+}
+
+} // namespace
+
+std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings)
+{
+	check_ids(rig);
+	return std::make_unique<CameraSource>(rig, settings);
+}
+
+} // namespace track

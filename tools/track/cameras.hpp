@@ -1,0 +1,19 @@
+// Stereo pairs from the two cameras that rig.toml names.
+#pragma once
+
+#include <memory>
+
+#include "capture_settings.hpp"
+#include "pongeye.h"
+#include "source.hpp"
+
+namespace track
+{
+
+// Opens both cameras and starts them. Throws pong::Failure.
+std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings);
+
+// Prints the cameras that answer as a table on stdout. Throws pong::Failure where there is none.
+void list_cameras();
+
+} // namespace track

@@ -1,0 +1,83 @@
+#include "clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace track
+{
+
+namespace
+{
+
+// Between readings a second apart a poor crystal (100 ppm) drifts by 0.1 ms; a busy host delays by a few.
+constexpr double CONTRADICTION_NS = 20e6;
+
+// What is known of a crystal's drift before it is measured.
+constexpr double DRIFT_SIGMA = 50e-6;
+
+int64_t read_clock(clockid_t clock)
+{
+	timespec time;
+	clock_gettime(clock, &time);
+	return time.tv_sec * INT64_C(1000000000) + time.tv_nsec;
+}
+
+} // namespace
+
+int64_t monotonic_ns()
+{
+	return read_clock(CLOCK_MONOTONIC);
+}
+
+int64_t unix_ns()
+{
+	return read_clock(CLOCK_REALTIME);
+}
+
+void ClockFit::add(const ClockReading &reading)
+{
+	const int64_t host_now = reading.before_ns + reading.round_trip_ns() / 2;
+	const double limit = CONTRADICTION_NS + reading.round_trip_ns();
+	if (known() && std::abs(static_cast<double>(host_ns(reading.device_ns) - host_now)) > limit)
+		count_ = oldest_ = 0;
+	if (!known()) {
+		first_device_ns_ = reading.device_ns;
+		first_difference_ns_ = host_now - reading.device_ns;
+	}
+	const double sigma = std::max<double>(reading.round_trip_ns(), 1) / std::sqrt(12.0); // ns
+	const size_t place = count_ < CAPACITY ? count_++ : oldest_;
+	oldest_ = count_ < CAPACITY ? 0 : (place + 1) % CAPACITY;
+	samples_[place] = {static_cast<double>(reading.device_ns - first_device_ns_),
+			   static_cast<double>(host_now - reading.device_ns - first_difference_ns_),
+			   1 / (sigma * sigma)};
+	fit();
+}
+
+void ClockFit::fit()
+{
+	double weight = 0, device = 0, difference = 0;
+	for (size_t i = 0; i < count_; i++) {
+		weight += samples_[i].weight;
+		device += samples_[i].weight * samples_[i].device;
+		difference += samples_[i].weight * samples_[i].difference;
+	}
+	mean_device_ = device / weight;
+	offset_ = difference / weight;
+
+	double covariance = 0, variance = 1 / (DRIFT_SIGMA * DRIFT_SIGMA);
+	for (size_t i = 0; i < count_; i++) {
+		const double x = samples_[i].device - mean_device_;
+		covariance += samples_[i].weight * x * (samples_[i].difference - offset_);
+		variance += samples_[i].weight * x * x;
+	}
+	drift_ = covariance / variance;
+}
+
+int64_t ClockFit::host_ns(int64_t device_ns) const
+{
+	const double since = static_cast<double>(device_ns - first_device_ns_) - mean_device_;
+	return device_ns + first_difference_ns_ + std::llround(offset_ + drift_ * since);
+}
+
+} // namespace track

@@ -1,0 +1,170 @@
+// pongeye-track: watch two cameras, or a folder of pictures, and say where the ball is and where it can be hit.
+//
+// track_ball() is the loop; all else opens what it reads from and writes to.
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "arguments.hpp"
+#include "cameras.hpp"
+#include "clock.hpp"
+#include "images.hpp"
+#include "live_table.hpp"
+#include "output.hpp"
+#include "program.hpp"
+#include "publisher.hpp"
+#include "status.hpp"
+
+namespace track
+{
+
+namespace
+{
+
+struct EyeDeleter {
+	void operator()(pong_eye *eye) const
+	{
+		pong_eye_free(eye);
+	}
+};
+using Eye = std::unique_ptr<pong_eye, EyeDeleter>;
+
+// Where the results go; whatever is not wanted is null.
+struct Sinks {
+	std::unique_ptr<Publisher> publisher;
+	std::unique_ptr<Output> output;
+	std::unique_ptr<Live> live;
+};
+
+struct Session {
+	Eye eye;
+	Sinks sinks;
+	Status status;
+	int64_t end_ns; // by monotonic_ns()
+};
+
+Eye open_eye(const pong_rig &rig, int profile)
+{
+	pong_settings settings;
+	pong_settings_defaults(static_cast<pong_profile>(profile), &settings);
+	pong_error error;
+	Eye eye(pong_eye_new(&rig, &settings, &error));
+	if (!eye)
+		throw pong::Failure(error.text);
+	return eye;
+}
+
+pong_rig load_rig(const std::string &path)
+{
+	pong_rig rig;
+	pong_error error;
+	if (pong_rig_load(path.c_str(), &rig, &error) < 0)
+		throw pong::Failure(error.text);
+	return rig;
+}
+
+std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &rig)
+{
+	if (!arguments.images.empty())
+		return open_images(arguments.images, arguments.fps);
+	return open_cameras(rig, load_capture_settings(arguments.rig));
+}
+
+Sinks open_sinks(const Arguments &arguments)
+{
+	Sinks sinks;
+	if (arguments.publish)
+		sinks.publisher = std::make_unique<Publisher>(arguments.lcm_url);
+	if (!arguments.output.empty())
+		sinks.output = std::make_unique<Output>(arguments.output);
+	if (arguments.live)
+		sinks.live = std::make_unique<Live>();
+	return sinks;
+}
+
+int64_t end_after(double seconds)
+{
+	return seconds > 0 ? monotonic_ns() + std::llround(seconds * 1e9) : INT64_MAX;
+}
+
+void look(pong_eye *eye, const StereoPair &pair, pong_sight &sight)
+{
+	pong_error error;
+	if (pong_eye_push(eye, pair.utime, pair.frame, &pair.left, &pair.right, &sight, &error) < 0)
+		throw pong::Failure(pong::format("pair %lld: %s", static_cast<long long>(pair.frame), error.text));
+}
+
+// Publishing comes first: somebody swings at it.
+void deliver(const StereoPair &pair, const pong_sight &sight, Session &session)
+{
+	const Sinks &sinks = session.sinks;
+	if (sinks.publisher)
+		sinks.publisher->publish(sight);
+	session.status.count(sight, static_cast<double>(monotonic_ns() - pair.arrival_ns) * 1e-9);
+	if (sinks.output)
+		sinks.output->write(pair, sight);
+	if (sinks.live)
+		sinks.live->see(sight);
+}
+
+// What time brings, whether pairs come or not.
+void keep_time(const Source &source, Session &session)
+{
+	const Sinks &sinks = session.sinks;
+	Status &status = session.status;
+	const int64_t now_ns = monotonic_ns();
+	if (status.second_over(now_ns)) {
+		status.close_second(now_ns, source.dropped());
+		if (sinks.publisher)
+			sinks.publisher->publish(status.report());
+	}
+	if (sinks.live)
+		sinks.live->draw(status.report(), now_ns);
+	if (now_ns >= session.end_ns)
+		pong::request_stop();
+}
+
+// The loop.
+void track_ball(Source &source, Session &session)
+{
+	StereoPair pair;
+	pong_sight sight;
+	Next next;
+	while (!pong::stop_requested() && (next = source.next(pair)) != Next::END) {
+		if (next == Next::PAIR) {
+			look(session.eye.get(), pair, sight);
+			deliver(pair, sight, session);
+		}
+		keep_time(source, session);
+	}
+}
+
+int run(int argc, char **argv)
+{
+	Arguments arguments;
+	if (!parse_arguments(argc, argv, arguments))
+		return 0;
+	if (arguments.list) {
+		list_cameras();
+		return 0;
+	}
+	const pong_rig rig = load_rig(arguments.rig);
+	Eye eye = open_eye(rig, arguments.profile);
+	Sinks sinks = open_sinks(arguments);
+	const std::unique_ptr<Source> source = open_source(arguments, rig);
+	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
+	track_ball(*source, session);
+	session.sinks.live.reset();
+	pong::say(session.status.summary(source->dropped()));
+	return 0;
+}
+
+} // namespace
+
+} // namespace track
+
+int main(int argc, char **argv)
+{
+	return pong::run_program("pongeye-track", argc, argv, track::run);
+}

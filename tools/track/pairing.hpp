@@ -1,0 +1,73 @@
+// Which picture of the left camera and which of the right one were exposed by the same trigger pulse.
+//
+// Pictures are paired by time. Frame counters cannot do it: a camera that misses a trigger pulse skips no number, and
+// from then on equal numbers belong to different pulses.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "fifo.hpp"
+#include "pongeye.h"
+
+namespace track
+{
+
+struct Picture {
+	int64_t utime;      // middle of the exposure
+	int64_t arrival_ns; // monotonic_ns()
+	void *buffer;       // whatever holds the pixels
+};
+
+struct PicturePair {
+	int64_t utime;      // the mean of both
+	int64_t frame;      // trigger pulses since the first pair, which has 0
+	Picture picture[2]; // by pong_side
+};
+
+class Pairing
+{
+public:
+	// What to do with a picture that has no partner.
+	using Release = std::function<void(pong_side side, const Picture &picture)>;
+
+	// rate: trigger pulses a second; 0: learn it from the first pictures, which are released and not
+	// counted: they would come late.
+	Pairing(double rate, Release release);
+
+	// Add a picture. Those of one side come in the order of time; the two sides may run ahead of each other.
+	void push(pong_side side, const Picture &picture);
+
+	// The next pair, if there is one.
+	bool pop(PicturePair &pair);
+
+	// Release all that still wait.
+	void clear();
+
+	// Pictures without a partner so far.
+	int64_t unpaired() const
+	{
+		return unpaired_;
+	}
+
+private:
+	static constexpr size_t WAITING = 16;
+	static constexpr size_t INTERVALS = 8;
+
+	void learn_period(int64_t interval);
+	void dismiss(pong_side side, const Picture &picture);
+	int64_t number_frame(int64_t utime);
+
+	Release release_;
+	Fifo<Picture, WAITING> waiting_[2];
+	int64_t last_utime_[2];
+	double period_;    // microseconds; 0: not known yet
+	double tolerance_; // microseconds
+	int64_t intervals_[INTERVALS];
+	size_t interval_count_ = 0;
+	bool paired_ = false;
+	int64_t pair_utime_ = 0, frame_ = 0;
+	int64_t unpaired_ = 0;
+};
+
+} // namespace track
