@@ -45,15 +45,15 @@ void check_corner(const Views &given, int number)
 {
 	const pong_corner &corner = given.corners[number];
 	if (corner.view < 0 || corner.view >= given.view_count)
-		throw Fault{PONG_ERROR_VALUE,
-			    format("corner %d is of view %d, but there are %d", number, corner.view, given.view_count)};
+		throw Fault{PONG_ERROR_VALUE, sentence("corner %d is of view %d, but there are %d", number, corner.view,
+						       given.view_count)};
 	if (corner.side != PONG_LEFT && corner.side != PONG_RIGHT)
-		throw Fault{PONG_ERROR_VALUE, format("corner %d is of neither camera", number)};
+		throw Fault{PONG_ERROR_VALUE, sentence("corner %d is of neither camera", number)};
 	if (corner.point < 0 || corner.point >= 100000)
-		throw Fault{PONG_ERROR_VALUE, format("corner %d has point number %d", number, corner.point)};
+		throw Fault{PONG_ERROR_VALUE, sentence("corner %d has point number %d", number, corner.point)};
 	for (const double value : {corner.uv[0], corner.uv[1], corner.board[0], corner.board[1], corner.board[2]})
 		if (!std::isfinite(value))
-			throw Fault{PONG_ERROR_VALUE, format("corner %d is not finite", number)};
+			throw Fault{PONG_ERROR_VALUE, sentence("corner %d is not finite", number)};
 }
 
 Problem problem_of(const Views &given)
@@ -67,7 +67,11 @@ Problem problem_of(const Views &given)
 		auto &points = problem.boards[static_cast<size_t>(corner.view)].points;
 		points.resize(std::max(points.size(), static_cast<size_t>(corner.point) + 1), Vector3::Zero());
 		points[static_cast<size_t>(corner.point)] = vector_of(corner.board);
-		problem.seen.push_back({corner.view, corner.side, corner.point, {corner.uv[0], corner.uv[1]}});
+		problem.seen.push_back({corner.view,
+					corner.side,
+					corner.point,
+					{corner.uv[0], corner.uv[1]},
+					corner.spread > 0 ? corner.spread : 1});
 	}
 	for (Board &board : problem.boards)
 		if (board.sigma_shape > 0 && board.points.size() > 2) {
@@ -85,7 +89,7 @@ void check_views(const Problem &problem, bool frame_is_left_camera)
 		corners[static_cast<size_t>(seen.board)]++;
 	for (size_t i = 0; i < corners.size(); i++)
 		if (corners[i] < 4)
-			throw Fault{PONG_ERROR_VALUE, format("view %zu has %d corners, needs 4", i, corners[i])};
+			throw Fault{PONG_ERROR_VALUE, sentence("view %zu has %d corners, needs 4", i, corners[i])};
 	const bool placed = std::any_of(problem.boards.begin(), problem.boards.end(),
 					[](const Board &board) { return board.placed; });
 	if (!placed && !frame_is_left_camera)

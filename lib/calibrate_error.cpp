@@ -64,7 +64,7 @@ void pong_calibration_expect(const pong_calibration *before, const double pose[3
 		const Projection projection =
 			project(problem.camera[static_cast<size_t>(corners[i].side)], board.pose * board.points.back());
 		if (projection.ahead)
-			problem.seen.push_back({0, corners[i].side, i, projection.pixel});
+			problem.seen.push_back({0, corners[i].side, i, projection.pixel, 1});
 	}
 	problem.boards.push_back(board);
 	const RigMatrix C = covariance_of(*before);

@@ -231,7 +231,7 @@ int pong_refine(pong_rig *rig, pong_side knocked, const pong_sighting *sightings
 		if (count < 20)
 			throw pong::Fault{
 				PONG_ERROR_VALUE,
-				pong::format("%d sightings are too few to refine from: 20 are needed", count)};
+				pong::sentence("%d sightings are too few to refine from: 20 are needed", count)};
 		*refinement = pong::refine(*rig, knocked, pong::flights_of(sightings, count));
 		return PONG_FOUND;
 	});

@@ -104,13 +104,14 @@ void add_seen(const Problem &problem, const Seen &seen, Normal &normal)
 	const Board &board = problem.boards[board_number];
 	const Projection projection =
 		project(problem.camera[static_cast<size_t>(seen.side)], board.pose * board.point(seen.point));
-	const Vector2 missing = residual(problem, seen) / problem.sigma;
+	const double sigma = problem.sigma * seen.spread;
+	const Vector2 missing = residual(problem, seen) / sigma;
 	normal.cost += loss_of(missing.norm(), problem.loss);
 	if (!projection.ahead)
 		return;
 	const double weight = weight_of(missing.norm(), problem.loss);
-	const auto by_camera = (projection.by_camera / problem.sigma).eval();
-	const Eigen::MatrixXd by_numbers = by_board(board, seen.point, projection.by_point / problem.sigma);
+	const auto by_camera = (projection.by_camera / sigma).eval();
+	const Eigen::MatrixXd by_numbers = by_board(board, seen.point, projection.by_point / sigma);
 	const int first = seen.side * camera_numbers;
 	normal.A.block<camera_numbers, camera_numbers>(first, first) += weight * by_camera.transpose() * by_camera;
 	normal.a.segment<camera_numbers>(first) += weight * by_camera.transpose() * missing;
@@ -148,7 +149,7 @@ double cost_of(const Problem &problem)
 	for (size_t side = 0; side < 2; side++)
 		add_lens_prior(problem, side, normal);
 	for (const Seen &seen : problem.seen)
-		normal.cost += loss_of(residual(problem, seen).norm() / problem.sigma, problem.loss);
+		normal.cost += loss_of(residual(problem, seen).norm() / (problem.sigma * seen.spread), problem.loss);
 	return normal.cost;
 }
 
@@ -248,7 +249,7 @@ double median_sigma(const Problem &problem)
 {
 	std::vector<double> distances;
 	for (const Seen &seen : problem.seen)
-		distances.push_back(residual(problem, seen).norm());
+		distances.push_back(residual(problem, seen).norm() / seen.spread);
 	const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
 	std::nth_element(distances.begin(), middle, distances.end());
 	return *middle / std::sqrt(2 * std::log(2.0));
@@ -260,7 +261,7 @@ double redundant_sigma(const Problem &problem)
 {
 	double squares = 0, weights = 0;
 	for (const Seen &seen : problem.seen) {
-		const double distance = residual(problem, seen).norm();
+		const double distance = residual(problem, seen).norm() / seen.spread;
 		const double weight = weight_of(distance / problem.sigma, problem.loss);
 		squares += weight * distance * distance;
 		weights += 2 * weight;
@@ -332,7 +333,8 @@ RigMatrix rig_covariance(const Problem &problem)
 	std::vector<Eigen::MatrixXd> V_inverse(normal.V.size());
 	for (size_t i = 0; i < normal.V.size(); i++)
 		if (!invert(normal.V[i], V_inverse[i]))
-			throw Fault{PONG_ERROR_VALUE, format("the corners of view %zu do not tell where it stood", i)};
+			throw Fault{PONG_ERROR_VALUE,
+				    sentence("the corners of view %zu do not tell where it stood", i)};
 	RigMatrix covariance;
 	if (!invert(reduced(problem, normal, V_inverse), covariance))
 		throw Fault{PONG_ERROR_VALUE, "the views do not determine the two cameras: add boards in other poses"};
@@ -350,7 +352,8 @@ std::vector<Eigen::Matrix<double, 6, 6>> board_covariances(const Problem &proble
 	for (size_t i = 0; i < normal.V.size(); i++) {
 		Eigen::MatrixXd V_inverse;
 		if (!invert(normal.V[i], V_inverse))
-			throw Fault{PONG_ERROR_VALUE, format("the corners of view %zu do not tell where it stood", i)};
+			throw Fault{PONG_ERROR_VALUE,
+				    sentence("the corners of view %zu do not tell where it stood", i)};
 		const Eigen::MatrixXd gain = normal.W[i] * V_inverse;
 		covariances.emplace_back((V_inverse + gain.transpose() * rig * gain).topLeftCorner<6, 6>());
 	}

@@ -33,6 +33,7 @@ Eigen::MatrixXd deformations(const std::vector<Vector3> &points);
 struct Seen {
 	int board, side, point;
 	Vector2 pixel;
+	double spread; // its noise over sigma
 };
 
 // What is known of the lens before any picture: a number about its usual value. The aspect is of fu - fv, in parts of

@@ -68,9 +68,10 @@ CameraModel start_from_homographies(const Problem &problem, int side)
 	const Vector2 middle((problem.prior.width[side] - 1) / 2, (problem.prior.height[side] - 1) / 2);
 	const double focal = focal_length(homographies, middle);
 	if (!(focal > 0))
-		throw Fault{PONG_ERROR_VALUE, format("the boards that the %s camera saw do not tell its focal length: "
-						     "add some that are tilted",
-						     side ? "right" : "left")};
+		throw Fault{PONG_ERROR_VALUE,
+			    sentence("the boards that the %s camera saw do not tell its focal length: "
+				     "add some that are tilted",
+				     side ? "right" : "left")};
 	CameraModel camera;
 	camera.lens.head<4>() << focal, focal, middle;
 	return camera;

@@ -158,6 +158,7 @@ typedef struct pong_corner {
 	int point;       /* which of the board's points, from 0: the same in both cameras */
 	double board[3]; /* its place in the board frame, m */
 	double uv[2];    /* px */
+	double spread;   /* its noise over that of a board's corner; 0 stands for 1 */
 } pong_corner;
 
 /* D in q~ = (q - E) / D, by which the linear method scales its coordinates (paper, eq. 4 and 5). */

@@ -89,7 +89,8 @@ void see_board(const TrueRig &rig, const Session &session, Recording &recording,
 						     side,
 						     point,
 						     {place.x(), place.y(), place.z()},
-						     {pixel.x() + du, pixel.y() + dv}});
+						     {pixel.x() + du, pixel.y() + dv},
+						     1});
 		}
 }
 
