@@ -121,6 +121,10 @@ $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
+# Live calibration looks through the tracker's cameras.
+$(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
+	pairing.o)
+
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(VERSION)/' $< >$@
