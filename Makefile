@@ -24,7 +24,7 @@ PACKAGES_bench    := eigen3
 OPENCV_calibrate  := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
-OPENCV_bench      := -lopencv_calib3d -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
@@ -124,6 +124,9 @@ $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 # Live calibration looks through the tracker's cameras.
 $(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
 	pairing.o)
+
+# The benchmark of calibration finds corners as calibration does.
+$(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)
 
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)

@@ -152,7 +152,8 @@ bool parse_arguments(int argc, char **argv, Arguments &arguments)
 	options.flag("--no-table", "there is no table: the frame is the left camera's", &arguments.no_table);
 	options.text("--output", "FILE", "the rig, - for stdout (rig.toml)", &arguments.output);
 	options.text("--report", "FILE", "a page with pictures and residuals", &arguments.report);
-	options.number("--accept", "MM", "a greater expected 3-D error is too poor to play with, mm (5)",
+	options.number("--accept", "MM",
+		       "a greater expected 3-D error is too poor to play with, mm (5; without a table any will do)",
 		       &arguments.accept, 0.01, 1000);
 	options.flag("--force", "write the rig even if it is too poor", &arguments.force);
 	options.text("--check", "RIG", "calibrate nothing: score this rig.toml on the pictures", &arguments.check);

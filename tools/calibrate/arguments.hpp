@@ -27,7 +27,7 @@ struct Arguments {
 	std::string check, cameras, refine, rig;
 	pong_side knocked = PONG_RIGHT;
 	std::string output = "rig.toml", report;
-	double accept = 5; // mm
+	double accept = 0; // mm; 0: 5 over a table, without one anything
 	bool force = false;
 };
 

@@ -61,11 +61,12 @@ std::string too_poor(const Arguments &arguments, const Session &session, const V
 			       : "";
 	if (!std::isfinite(volume.mean))
 		return "no place of the volume is in view of both cameras";
-	if (volume.mean <= arguments.accept)
+	const double accept = arguments.accept > 0 ? arguments.accept : arguments.no_table ? INFINITY : 5;
+	if (volume.mean <= accept)
 		return "";
 	return pong::format(
 		"points are expected to be %.1f mm off, more than the %.1f mm of --accept; %zu pairs are used",
-		volume.mean, arguments.accept, session.used.size());
+		volume.mean, accept, session.used.size());
 }
 
 int check_rig(const Arguments &arguments, Session &session)

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include <Eigen/Dense>
 
 #include "program.hpp"
 
@@ -241,6 +242,7 @@ double score(const pong_camera camera[2], Session &session)
 	return rms;
 }
 
+// The size of a board that fits the reconstructed corners best: distances between noisy points would come out too long.
 double measured_square(const pong_camera camera[2], const BoardSize &board, const Session &session)
 {
 	double sum = 0;
@@ -248,29 +250,22 @@ double measured_square(const pong_camera camera[2], const BoardSize &board, cons
 	for (const size_t number : session.used) {
 		const auto &left = session.pairs[number].found[PONG_LEFT].corners;
 		const auto &right = session.pairs[number].found[PONG_RIGHT].corners;
-		if (left.empty() || right.empty())
+		const auto corners = static_cast<Eigen::Index>(std::min(left.size(), right.size()));
+		Eigen::Matrix3Xd model(3, corners), measured(3, corners);
+		bool all = corners > 0;
+		for (Eigen::Index i = 0; i < corners; i++) {
+			const cv::Point2f &a = left[static_cast<size_t>(i)], &b = right[static_cast<size_t>(i)];
+			const double left_uv[2] = {a.x, a.y}, right_uv[2] = {b.x, b.y};
+			Eigen::Vector3d place;
+			all = all && pong_triangulate(camera, left_uv, right_uv, place.data()) == PONG_FOUND;
+			model.col(i) << static_cast<double>(i % board.columns), static_cast<double>(i / board.columns),
+				0;
+			measured.col(i) = place;
+		}
+		if (!all)
 			continue;
-		std::vector<std::array<double, 3>> place(left.size());
-		for (size_t i = 0; i < left.size(); i++) {
-			const double left_uv[2] = {left[i].x, left[i].y}, right_uv[2] = {right[i].x, right[i].y};
-			if (pong_triangulate(camera, left_uv, right_uv, place[i].data()) != PONG_FOUND)
-				place[i].fill(NAN);
-		}
-		const auto add = [&](size_t a, size_t b) {
-			const double side = std::hypot(place[a][0] - place[b][0], place[a][1] - place[b][1],
-						       place[a][2] - place[b][2]);
-			if (std::isfinite(side)) {
-				sum += side;
-				count++;
-			}
-		};
-		const auto columns = static_cast<size_t>(board.columns);
-		for (size_t i = 0; i < place.size(); i++) {
-			if (i % columns)
-				add(i - 1, i);
-			if (i >= columns)
-				add(i - columns, i);
-		}
+		sum += Eigen::umeyama(model, measured).topLeftCorner<3, 3>().col(0).norm();
+		count++;
 	}
 	return count ? sum / count : NAN;
 }
