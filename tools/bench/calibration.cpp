@@ -114,19 +114,23 @@ void run_conditions(const Conditions &conditions, int boards, int seeds)
 			pong_camera camera[2];
 			if (!method.run(recording, {pong::true_width, pong::true_height}, camera))
 				continue;
+			const double off = pong::volume_error(rig, camera, pong::table_volume()).mean;
+			if (!std::isfinite(off))
+				continue;
 			pixels += error_at(1.7, rig, camera);
-			volume += 1e3 * pong::volume_error(rig, camera, pong::table_volume()).mean;
+			volume += 1e3 * off;
 			done++;
 		}
-		printf("%.2f %.2f %.1f %.1f %s %.4f %.3f\n", conditions.noise, conditions.k1,
-		       1e3 * conditions.placement, 1e3 * conditions.tilt, method.name, pixels / done, volume / done);
+		printf("%.2f %.2f %.1f %.1f %s %.4f %.3f %d\n", conditions.noise, conditions.k1,
+		       1e3 * conditions.placement, 1e3 * conditions.tilt, method.name, pixels / done, volume / done,
+		       seeds - done);
 		fflush(stdout);
 	}
 }
 
 void run_figure(int boards, int seeds)
 {
-	printf("# noise_px k1 placement_mm tilt_mrad method error_px error_mm\n");
+	printf("# noise_px k1 placement_mm tilt_mrad method error_px error_mm failed\n");
 	const Conditions usual = {0.1, -0.15, 0.0002, 0.001};
 	run_conditions({0.1, 0, 0, 0}, boards, seeds);
 	for (const double noise : {0.05, 0.1, 0.2, 0.5})
@@ -215,7 +219,9 @@ int calibration(int argc, char **argv)
 	std::string left, right, size;
 	calibrate::BoardSize board = {};
 	pong::Options options("pongeye-bench calibration",
-			      "Compare calibrations on simulated corners (the paper's Fig. 9), or on pictures.",
+			      "Compare calibrations on simulated corners (the paper's Fig. 9), or on pictures; failed: "
+			      "sessions from\n"
+			      "which no rig came that sees all of the volume.",
 			      example);
 	options.integer("--seeds", "N", "simulated sessions for each row (10)", &seeds, 1, 10000);
 	options.integer("--boards", "N", "boards held at will besides the four planes (20)", &boards, 3, 1000);

@@ -105,6 +105,43 @@ bool larger_than_said(const cv::Mat &picture, const Corners &corners, const Boar
 	       goes_on(picture, corners, columns - 1, columns, -1, rows);
 }
 
+// How wide the edge between two neighbouring corners is: the step of grey levels across it over its greatest slope, px.
+// 0 where there is no step.
+double edge_width(const cv::Mat &picture, const cv::Point2f &a, const cv::Point2f &b)
+{
+	const cv::Point2f middle = (a + b) / 2, along = b - a;
+	const float length = static_cast<float>(cv::norm(along));
+	const cv::Point2f across(-along.y / length, along.x / length);
+	const int reach = std::max(2, static_cast<int>(0.4f * length));
+	std::vector<double> levels;
+	for (int i = -reach; i <= reach; i++) {
+		cv::Mat level;
+		cv::getRectSubPix(picture, {1, 1}, middle + static_cast<float>(i) * across, level);
+		levels.push_back(level.at<uchar>(0, 0));
+	}
+	double slope = 0;
+	for (size_t i = 1; i < levels.size(); i++)
+		slope = std::max(slope, std::abs(levels[i] - levels[i - 1]));
+	return slope > 5 ? std::abs(levels.back() - levels.front()) / slope : 0;
+}
+
+// The mean width of the edges along the rows or along the columns, whichever is blurred more: motion blurs one of them.
+double blur_of(const cv::Mat &picture, const Corners &corners, const BoardSize &board)
+{
+	double sum[2] = {};
+	int count[2] = {};
+	for (int i = 0; i < board.rows * board.columns; i++)
+		for (const int step : {1, board.columns}) {
+			if (step == 1 ? i % board.columns == 0 : i < board.columns)
+				continue;
+			const bool down = step != 1;
+			sum[down] += edge_width(picture, corners[static_cast<size_t>(i)],
+						corners[static_cast<size_t>(i - step)]);
+			count[down]++;
+		}
+	return std::max(sum[0] / count[0], sum[1] / count[1]);
+}
+
 // What the picture shows where the board was not found: any board of at least 3 x 3.
 std::string explain(const cv::Mat &picture, const BoardSize &board)
 {
@@ -139,7 +176,7 @@ Found find_board(const cv::Mat &picture, const BoardSize &board)
 	const int half = std::clamp(static_cast<int>(step * 0.35), 2, 11);
 	cv::cornerSubPix(picture, corners, {half, half}, {-1, -1},
 			 {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 0.001});
-	const double edge = cv::estimateChessboardSharpness(picture, size, corners)[0];
+	const double edge = blur_of(picture, corners, board);
 	if (larger_than_said(picture, corners, board))
 		found.why = "the board has more corners than --board says";
 	else if (edge > std::max(blur_limit * step, 5.0))
