@@ -13,6 +13,7 @@ VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 LIB := \
 	error document \
 	rig camera settings \
+	calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate_refine calibrate \
 	region \
 	cells conditions patch five_points blob detect_difference detect_double detect \
 	cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate \
@@ -23,11 +24,13 @@ LIB := \
 	eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := track predict simulate bench
+PROGRAMS := calibrate track predict simulate bench
 PACKAGES_lib      := eigen3
+PACKAGES_calibrate := eigen3 aravis-0.8
 PACKAGES_track    := aravis-0.8 lcm
 PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
+OPENCV_calibrate  := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
@@ -137,6 +140,13 @@ $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)
 	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
+
+# Live calibration looks through the tracker's cameras.
+$(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
+	pairing.o)
+
+# The benchmark of calibration finds corners as calibration does.
+$(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)
 
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)
