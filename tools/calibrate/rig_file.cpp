@@ -11,10 +11,9 @@ namespace calibrate
 
 pong_rig make_rig(const pong_camera camera[2], bool table)
 {
-	pong_rig rig = {};
-	rig.ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-	if (table)
-		rig.table = {1, 2.74, 1.525};
+	pong_rig rig;
+	pong_rig_defaults(&rig);
+	rig.table.present = table;
 	rig.camera[PONG_LEFT] = camera[PONG_LEFT];
 	rig.camera[PONG_RIGHT] = camera[PONG_RIGHT];
 	return rig;
