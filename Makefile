@@ -163,9 +163,10 @@ TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(
 # Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
 TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
+# Tests are compiled without much optimisation: more time goes into compiling than into running them.
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -O1 $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
 
 $(BUILD)/obj/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
@@ -191,6 +192,7 @@ SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
 .PHONY: test check
 test: deps
 	$(MAKE) check
+	$(MAKE) test-trigger
 
 check: all $(BUILD)/tests/unit $(SIM_PROGRAMS)
 	BUILD=$(BUILD) tests/run
@@ -206,7 +208,7 @@ INSTALL_DIR := $(DESTDIR)$(PREFIX)
 
 install: all
 	install -d $(addprefix $(INSTALL_DIR)/,bin include/pongeye lib/pkgconfig share/java share/pongeye/lcmtypes)
-	install -m 755 $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy $(INSTALL_DIR)/bin
+	install -m 755 $(addprefix $(BUILD)/bin/pongeye-,$(PROGRAMS) spy trigger) $(INSTALL_DIR)/bin
 	install -m 644 lib/pongeye.h $(INSTALL_DIR)/include
 	install -m 644 $(BUILD)/lcmtypes/c/*.h $(LCM_HPP) $(INSTALL_DIR)/include/pongeye
 	install -m 644 $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye-lcmtypes.a $(INSTALL_DIR)/lib
@@ -232,8 +234,10 @@ help:
 	@echo "  make clean      remove build/"
 	@echo "  CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler, another folder, warnings are errors"
 
-sanitize:
-	$(MAKE) check BUILD=$(BUILD)-asan SANITIZE=address,undefined OPTIMISE='-O1 -g'
+sanitize: deps
+	$(MAKE) $(BUILD)-asan/tests/unit $(PROGRAMS:%=$(BUILD)-asan/bin/pongeye-%) \
+	    BUILD=$(BUILD)-asan SANITIZE=address,undefined OPTIMISE='-O1 -g'
+	BUILD=$(BUILD)-asan ASAN_OPTIONS=detect_leaks=0 tests/run unit refusals
 
 tsan:
 	$(MAKE) $(BUILD)-tsan/tests/unit BUILD=$(BUILD)-tsan SANITIZE=thread OPTIMISE='-O1 -g'
