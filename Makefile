@@ -24,8 +24,9 @@ OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 
-# The benchmark flies the simulator's balls before the simulator's cameras.
-BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o)
+# The benchmark flies the simulator's balls before the simulator's cameras, and reads flights as pongeye-predict does.
+BORROWED_bench := $(addprefix $(BUILD)/obj/tools/simulate/,ball.o flight.o serve.o camera.o) \
+	$(addprefix $(BUILD)/obj/tools/predict/,points.o follow.o fit.o)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
