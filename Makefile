@@ -35,9 +35,10 @@ OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
-# The benchmark flies the simulator's balls before the simulator's cameras.
+# The benchmark flies and pictures the simulator's balls, and reads flights as pongeye-predict does.
 BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
-	renderer room scene section sensor sphere texture world)
+	renderer room scene section sensor sphere texture world) \
+	$(patsubst %,$(BUILD)/obj/tools/predict/%.o,points follow fit)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \

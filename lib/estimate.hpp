@@ -40,13 +40,21 @@ private:
 		ParameterMatrix information;
 	};
 
+	struct Belief {
+		Parameters mean;
+		ParameterMatrix covariance;
+	};
+
 	void begin(const pong_point &point);
-	void find_noise();
+	void find_noise(const pong_point &point);
 	void improve();
 	Quadratic linearise(const Parameters &parameters, size_t samples) const;
 	Quadratic prior_at(const Parameters &parameters) const;
 	void find_state();
 	void fold();
+	void move_anchor(double time, size_t first);
+	void renew_kick(Parameters &parameters, ParameterMatrix &covariance) const;
+	Belief belief_at(double time, const Quadratic &quadratic, int *bounces) const;
 
 	pong_rig rig_;
 	Physics physics_;
@@ -58,7 +66,7 @@ private:
 	Parameters prior_mean_;
 	ParameterMatrix prior_information_;
 	Parameters parameters_;
-	Quadratic quadratic_; // about parameters_, less the last step
+	Quadratic quadratic_; // about parameters_
 	pong_state state_;
 };
 

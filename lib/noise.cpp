@@ -13,7 +13,7 @@ const double usual_sigma = 0.001; // m; what is believed before,
 const double belief = 2;          // as if seen so often
 const double surprise = 9;        // a square so many times the usual one is a bounce or an outlier, and counts no more
 
-}
+} // namespace
 
 Noise::Noise(double shared) : shared_(shared)
 {
@@ -28,10 +28,10 @@ void Noise::clear()
 }
 
 // The third divided difference, sum of x_i / prod (t_i - t_j), scaled so that its variance is that of one point.
-void Noise::add(double time, const Vector3 &position)
+void Noise::add(int64_t utime, const Vector3 &position)
 {
 	std::rotate(latest_.begin(), latest_.begin() + 1, latest_.end());
-	latest_.back() = {time, position};
+	latest_.back() = {utime, position};
 	if (++count_ < latest_.size())
 		return;
 	Vector3 difference = Vector3::Zero();
@@ -39,8 +39,8 @@ void Noise::add(double time, const Vector3 &position)
 	for (const Place &one : latest_) {
 		double product = 1;
 		for (const Place &other : latest_)
-			if (other.time != one.time)
-				product *= one.time - other.time;
+			if (other.utime != one.utime)
+				product *= static_cast<double>(one.utime - other.utime) * 1e-6;
 		difference += one.position / product;
 		squares += 1 / (product * product);
 	}

@@ -18,14 +18,14 @@ public:
 	explicit Noise(double shared);
 
 	void clear();
-	void add(double time, const Vector3 &position);
+	void add(int64_t utime, const Vector3 &position);
 
 	// Standard deviations of x, y, z, m.
 	Vector3 sigma() const;
 
 private:
 	struct Place {
-		double time;
+		int64_t utime;
 		Vector3 position;
 	};
 	double shared_;

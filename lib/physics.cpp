@@ -13,8 +13,8 @@ const double standard_gravity = 9.80665; // m/s^2
 const double step_error = 1e-6;          // m
 const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
 const double least_spin = 1e-6;          // rad/s; the same
-const double rolling_part = 0.4;         // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
-const double spin_per_push = 1.5;        // m r^2 / I, with I = 2/3 m r^2
+const double rolling_part = 0.4;  // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
+const double spin_per_push = 1.5; // m r^2 / I, with I = 2/3 m r^2
 
 Matrix3 cross_matrix(const Vector3 &d)
 {
@@ -40,6 +40,20 @@ Motion motion_at_anchor(const Parameters &parameters)
 	return motion;
 }
 
+ParameterMatrix carry(const ParameterMatrix &covariance, const Motion &motion)
+{
+	const int moving = PONG_STATE_DRAG, constant = parameter_count - moving;
+	Eigen::Matrix<double, moving, parameter_count> rates;
+	rates << motion.position_rates, motion.velocity_rates, motion.spin_rates;
+	const Eigen::Matrix<double, moving, parameter_count> half = rates * covariance;
+	ParameterMatrix carried;
+	carried.topLeftCorner<moving, moving>().noalias() = half * rates.transpose();
+	carried.topRightCorner<moving, constant>() = half.rightCols<constant>();
+	carried.bottomLeftCorner<constant, moving>() = half.rightCols<constant>().transpose();
+	carried.bottomRightCorner<constant, constant>() = covariance.bottomRightCorner<constant, constant>();
+	return carried;
+}
+
 Physics::Physics(const pong_rig &rig) : radius_(rig.ball.diameter / 2)
 {
 	const pong_ball_spec &ball = rig.ball;
@@ -60,8 +74,8 @@ Vector3 Physics::acceleration(const Parameters &parameters, const Motion &motion
 	const double speed = v.norm() + least_speed;
 	const double q = speed / (speed + saturation_ * motion.spin.norm());
 	const double k = drag_factor_ * parameters[PONG_STATE_DRAG] * speed + drag_by_spin_ * motion.spin.norm();
-	return -k * v +
-	       magnus_factor_ * parameters[PONG_STATE_MAGNUS] * q * motion.spin.cross(v) - Vector3(0, gravity_, 0);
+	return -k * v + magnus_factor_ * parameters[PONG_STATE_MAGNUS] * q * motion.spin.cross(v) -
+	       Vector3(0, gravity_, 0);
 }
 
 // With a rate l at which velocity turns and fades, the next term of the series that a step drops is
@@ -94,9 +108,9 @@ void Physics::step(const Parameters &parameters, double duration, Motion &motion
 		const Matrix3 by_velocity =
 			m * q * cross_matrix(motion.spin) - drag * Matrix3::Identity() +
 			(m * surface / (speed * (speed + surface)) * turn - k * v) * v.transpose() / speed;
-		const Matrix3 by_spin = -m * q * cross_matrix(v) -
-					(m * saturation_ / (speed + surface) * turn + drag_by_spin_ * v) *
-						motion.spin.transpose() / spin;
+		const Matrix3 by_spin =
+			-m * q * cross_matrix(v) - (m * saturation_ / (speed + surface) * turn + drag_by_spin_ * v) *
+							   motion.spin.transpose() / spin;
 		a_rates.noalias() = by_velocity.lazyProduct(v_rates);
 		a_rates += by_spin.lazyProduct(spin_part);
 		a_rates.col(PONG_STATE_DRAG) -= drag_factor_ * speed * v;

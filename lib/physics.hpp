@@ -29,6 +29,9 @@ struct Motion {
 // A ball at the anchor.
 Motion motion_at_anchor(const Parameters &parameters);
 
+// The covariance of the ball in motion and of the coefficients, from that of the parameters.
+ParameterMatrix carry(const ParameterMatrix &covariance, const Motion &motion);
+
 class Physics
 {
 public:

@@ -80,9 +80,9 @@ pong_ball_spec read_ball(const Document &document)
 	pong_ball_spec ball = usual_ball();
 	if (!document.has_section("ball"))
 		return ball;
-	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "drag_by_spin", "magnus",
-				     "magnus_sigma", "magnus_saturation", "restitution", "restitution_sigma", "friction", "friction_sigma",
-				     "grip", "grip_sigma", "kick", "spin_sigma"});
+	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "drag_by_spin",
+				     "magnus", "magnus_sigma", "magnus_saturation", "restitution", "restitution_sigma",
+				     "friction", "friction_sigma", "grip", "grip_sigma", "kick", "spin_sigma"});
 	read_number(document, "ball", "diameter", 0.001, 1, &ball.diameter);
 	read_number(document, "ball", "mass", 0.0001, 10, &ball.mass);
 	read_number(document, "ball", "air_density", 0, 100, &ball.air_density);

@@ -169,8 +169,7 @@ pong_track_event push_other(pong_track &track, const pong_point &point)
 
 bool usable(const pong_point &point)
 {
-	return vector_of(point.position).allFinite() &&
-	       Eigen::Map<const Matrix3>(&point.covariance[0][0]).allFinite();
+	return vector_of(point.position).allFinite() && Eigen::Map<const Matrix3>(&point.covariance[0][0]).allFinite();
 }
 
 } // namespace
@@ -180,7 +179,8 @@ bool usable(const pong_point &point)
 pong_track *pong_track_new(const pong_rig *rig, const pong_settings *settings, pong_error *error)
 {
 	return guarded_new(error, [&] {
-		pong_track *track = new pong_track{*rig, *settings, {Run(*rig, *settings), Run(*rig, *settings)}, nullptr, nullptr, 0, 0};
+		pong_track *track = new pong_track{
+			*rig, *settings, {Run(*rig, *settings), Run(*rig, *settings)}, nullptr, nullptr, 0, 0};
 		track->flight = &track->run[0];
 		track->other = &track->run[1];
 		return track;

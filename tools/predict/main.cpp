@@ -21,8 +21,9 @@ struct Arguments {
 	std::string rig, fit;
 };
 
-const char *const columns = "flight t n hit_t hit_x hit_y hit_z hit_vx hit_vy hit_vz hit_st hit_sx hit_sy bounce_t bounce_x "
-			    "bounce_z";
+const char *const columns =
+	"flight t n hit_t hit_x hit_y hit_z hit_vx hit_vy hit_vz hit_st hit_sx hit_sy bounce_t bounce_x "
+	"bounce_z";
 const char *const ahead_columns = " ahead_x ahead_y ahead_z ahead_sx ahead_sy ahead_sz";
 
 double sigma(double variance)
@@ -107,21 +108,22 @@ void predict_rows(predict::PointReader &reader, const Arguments &arguments, cons
 
 std::string fit_text(const Arguments &arguments, const pong_settings &settings, pong_rig rig)
 {
-	return predict::fit_text(
-		predict::fit(predict::read_flights(arguments.fit), settings, arguments.noise, rig));
+	return predict::fit_text(predict::fit(predict::read_flights(arguments.fit), settings, arguments.noise, rig));
 }
 
 bool parse(int argc, char **argv, Arguments &arguments)
 {
 	pong::Options options(
-		"pongeye-predict", "Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
+		"pongeye-predict",
+		"Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
 		"every point.",
 		"  $ pongeye-predict --ahead 0.2 < flights.txt\n");
 	options.choice("--profile", {"paper", "best"}, "the published method, or what measures best (best)",
 		       &arguments.profile);
-	options.number("--hit-plane", "Z", "the plane on which the robot hits, m (0, or the rig's)", &arguments.hit_plane,
-		       -100, 100);
-	options.number("--ahead", "S", "also the position expected so long after each point, s", &arguments.ahead, 0, 10);
+	options.number("--hit-plane", "Z", "the plane on which the robot hits, m (0, or the rig's)",
+		       &arguments.hit_plane, -100, 100);
+	options.number("--ahead", "S", "also the position expected so long after each point, s", &arguments.ahead, 0,
+		       10);
 	options.number("--at", "T", "also the position expected at this time, s", &arguments.at, -1e12, 1e12);
 	options.number("--noise", "METRES",
 		       "standard deviation of the points where the table has no sx sy sz (found out from the points)",
