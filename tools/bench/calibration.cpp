@@ -121,9 +121,14 @@ void run_conditions(const Conditions &conditions, int boards, int seeds)
 			volume += 1e3 * off;
 			done++;
 		}
-		printf("%.2f %.2f %.1f %.1f %s %.4f %.3f %d\n", conditions.noise, conditions.k1,
-		       1e3 * conditions.placement, 1e3 * conditions.tilt, method.name, pixels / done, volume / done,
-		       seeds - done);
+		if (pong::stop_requested())
+			return;
+		printf("%.2f %.2f %.1f %.1f %s ", conditions.noise, conditions.k1, 1e3 * conditions.placement,
+		       1e3 * conditions.tilt, method.name);
+		if (done)
+			printf("%.4f %.3f %d\n", pixels / done, volume / done, seeds - done);
+		else
+			printf("- - %d\n", seeds);
 		fflush(stdout);
 	}
 }
