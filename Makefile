@@ -10,12 +10,21 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error \
-	calibrate_refine calibrate settings region detect cone locate_gaussian locate_centroid locate_edges locate \
-	reconstruct flight track predict window eye
+LIB := \
+	error document \
+	rig camera settings \
+	calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate_refine calibrate \
+	region \
+	cells conditions patch five_points blob detect_difference detect_double detect \
+	cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate \
+	reconstruct \
+	flight physics trajectory noise estimate halves track \
+	outlook predict \
+	window \
+	eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := calibrate track simulate bench
+PROGRAMS := calibrate track predict simulate bench
 PACKAGES_lib      := eigen3
 PACKAGES_calibrate := eigen3 aravis-0.8
 PACKAGES_track    := aravis-0.8 lcm
@@ -24,16 +33,21 @@ PACKAGES_bench    := eigen3
 OPENCV_calibrate  := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
-OPENCV_bench      := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
+OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
+
+# The benchmark flies the simulator's balls before the simulator's cameras.
+BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
+	renderer room scene section sensor sphere texture world)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
-	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2
+	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2 netpbm
 
 OPTIMISE ?= -O3 -g
 WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
 SANITIZE_FLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
-COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fvisibility=hidden -MMD -MP -Ilib
+COMMON_FLAGS := $(OPTIMISE) $(WARNINGS) $(SANITIZE_FLAGS) -fPIC -fno-math-errno -fno-trapping-math \
+	-fvisibility=hidden -MMD -MP -Ilib
 override CFLAGS   += -std=c11 $(COMMON_FLAGS)
 override CXXFLAGS += -std=c++17 $(COMMON_FLAGS)
 override LDFLAGS  += $(SANITIZE_FLAGS)
@@ -44,7 +58,7 @@ cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
 libs   = $(if $(1),$(shell pkg-config --libs $(1)))
 
 .PHONY: all
-all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/pongeye.jar \
+all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/libpongeye-lcmtypes.a $(BUILD)/lib/pongeye.jar \
      $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy
 
 # --- Dependencies
@@ -89,6 +103,12 @@ $(BUILD)/lcmtypes/pongeye/%.hpp: lcmtypes/%.lcm
 	lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
 	@test -s $@
 
+# For robots in C: the messages' encoders, to be linked with lcm.
+$(BUILD)/lib/libpongeye-lcmtypes.a: $(LCM_HPP)
+	@mkdir -p $(@D)
+	cd $(BUILD)/lcmtypes/c && $(CC) -std=gnu11 -O2 -fPIC $(call cflags,lcm) -c *.c
+	$(AR) rcs $@ $(BUILD)/lcmtypes/c/*.o
+
 $(BUILD)/lib/pongeye.jar: $(LCMTYPES)
 	@mkdir -p $(BUILD)/lcmtypes/java/classes $(@D)
 	lcm-gen --java --jpath $(BUILD)/lcmtypes/java $^
@@ -109,12 +129,12 @@ objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell f
 define program
 $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
 	@mkdir -p $$(@D)
-	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itools/$(1) \
+	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
 
 $(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
 
-$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(COMMON_OBJECTS) \
+$(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(BORROWED_$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
 	@mkdir -p $$(@D)
 	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
@@ -140,7 +160,8 @@ UNIT_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.cpp)) 
 	$(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/unit/*.c))
 TOOL_OBJECTS := $(foreach name,$(PROGRAMS),$(call objects_of,$(name)))
 TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(name))))
-TEST_INCLUDES := -I. -I$(BUILD)/lcmtypes $(addprefix -Itools/,common $(PROGRAMS))
+# Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
+TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
@@ -155,15 +176,83 @@ $(BUILD)/tests/unit: $(UNIT_OBJECTS) $(TOOL_OBJECTS) $(COMMON_OBJECTS) $(BUILD)/
 	$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
 	    -lgtest -lgtest_main -pthread -o $@
 
+# Programs that the scripts use.
+$(BUILD)/tests/lcm_listener: $(BUILD)/obj/tests/sim/lcm_listener.o $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,lcm) -o $@
+
+$(BUILD)/tests/gige_aravis: $(BUILD)/obj/tests/sim/test_gige_aravis.o \
+    $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/simulate/gige/*.cpp)) $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
+
+SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
+
 .PHONY: test check
 test: deps
 	$(MAKE) check
 
-check: all $(BUILD)/tests/unit
+check: all $(BUILD)/tests/unit $(SIM_PROGRAMS)
 	BUILD=$(BUILD) tests/run
+
+# --- Demo, installation
+
+.PHONY: demo install
+demo: deps
+	$(MAKE) all
+	BUILD=$(BUILD) tools/demo/pongeye-demo
+
+INSTALL_DIR := $(DESTDIR)$(PREFIX)
+
+install: all
+	install -d $(addprefix $(INSTALL_DIR)/,bin include/pongeye lib/pkgconfig share/java share/pongeye/lcmtypes)
+	install -m 755 $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy $(INSTALL_DIR)/bin
+	install -m 644 lib/pongeye.h $(INSTALL_DIR)/include
+	install -m 644 $(BUILD)/lcmtypes/c/*.h $(LCM_HPP) $(INSTALL_DIR)/include/pongeye
+	install -m 644 $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye-lcmtypes.a $(INSTALL_DIR)/lib
+	install -m 755 $(BUILD)/lib/libpongeye.so $(INSTALL_DIR)/lib/libpongeye.so.$(VERSION)
+	ln -sf libpongeye.so.$(VERSION) $(INSTALL_DIR)/lib/libpongeye.so.0
+	ln -sf libpongeye.so.0 $(INSTALL_DIR)/lib/libpongeye.so
+	install -m 644 $(BUILD)/lib/pongeye.jar $(INSTALL_DIR)/share/java
+	install -m 644 $(LCMTYPES) $(INSTALL_DIR)/share/pongeye/lcmtypes
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' lib/pongeye.pc.in >$(INSTALL_DIR)/lib/pkgconfig/pongeye.pc
+	$(if $(DESTDIR),,-ldconfig 2>/dev/null)
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-.PHONY: clean
+# --- The rest
+
+.PHONY: help sanitize tsan format lint clean
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
+	@echo "  make check      the tests, without installing anything"
+	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer"
+	@echo "  make tsan       the unit tests under ThreadSanitizer"
+	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
+	@echo "  make clean      remove build/"
+	@echo "  CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler, another folder, warnings are errors"
+
+sanitize:
+	$(MAKE) check BUILD=$(BUILD)-asan SANITIZE=address,undefined OPTIMISE='-O1 -g'
+
+tsan:
+	$(MAKE) $(BUILD)-tsan/tests/unit BUILD=$(BUILD)-tsan SANITIZE=thread OPTIMISE='-O1 -g'
+	$(BUILD)-tsan/tests/unit
+
+SOURCES := $(shell git ls-files '*.cpp' '*.hpp' '*.c' '*.h' 2>/dev/null)
+
+format:
+	clang-format -i $(SOURCES)
+
+lint:
+	clang-format --dry-run -Werror $(SOURCES)
+	clang-tidy --quiet $(filter lib/%.cpp,$(SOURCES)) -- -std=c++17 -Ilib $(call cflags,$(PACKAGES_lib))
+
+# What a variable of this file is: make print-LIB.
+print-%:
+	@echo $($*)
+
 clean:
 	rm -rf $(BUILD)
+
+-include trigger/build.mk

@@ -98,12 +98,24 @@ typedef struct pong_ball_spec {
 	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
 	double air_density; /* rho, kg/m^3 */
 	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
+	double drag_by_spin; /* what S, the speed of the ball's surface over that of its flight, adds to the drag's C */
+	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
+	double magnus_saturation;
+	double restitution; /* vertical speed after a bounce over that before it */
+	double friction;    /* mu between ball and table */
+	double grip;        /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
+			       as that of a gripping rubber ball is, by this part */
+	double kick;        /* standard deviation of what a bounce adds to the velocity along the table, m/s */
+	double spin_sigma[3]; /* of the spin that players give to the ball about x, y, z, rad/s; its mean is 0 */
+	/* Standard deviations of the coefficients above: from ball to ball, from day to day. */
+	double drag_sigma, magnus_sigma, restitution_sigma, friction_sigma, grip_sigma;
 } pong_ball_spec;
 
 /* Where there is no table there is no bounce, and the whole image is searched. */
 typedef struct pong_table {
 	int present;
 	double length, width; /* m */
+	double net;           /* height of the net, m; 0: there is none */
 } pong_table;
 
 typedef struct pong_rig {
@@ -113,11 +125,17 @@ typedef struct pong_rig {
 	pong_camera camera[2]; /* by pong_side */
 } pong_rig;
 
+/* Today's ball on today's table, the hit plane at its end, no cameras: enough to track and predict points. */
+PONG_API void pong_rig_defaults(pong_rig *rig);
+
 /* Read rig.toml. On an error *rig is unchanged.
  * Returns PONG_FOUND, PONG_ERROR_FILE, PONG_ERROR_FORMAT or PONG_ERROR_VALUE, with file, line and column in *error. */
 PONG_API int pong_rig_load(const char *path, pong_rig *rig, pong_error *error);
 
-/* The same from text of any length; name stands for the file in errors. */
+/* The same of a file that may lack the cameras, which are not read: what tracking and predicting points needs. */
+PONG_API int pong_rig_load_flight(const char *path, pong_rig *rig, pong_error *error);
+
+/* As pong_rig_load, from text of any length; name stands for the file in errors. */
 PONG_API int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error);
 
 /* Write *rig as TOML text into text[capacity], always terminated. Returns the length that it takes (as snprintf does:
@@ -257,14 +275,26 @@ typedef enum pong_detect_method {
 } pong_detect_method;
 
 typedef enum pong_locate_method {
-	PONG_LOCATE_GAUSSIAN = 0, /* the paper's log-Gaussian, section 4.3 */
-	PONG_LOCATE_CENTROID = 1, /* centroid weighted by the difference image */
-	PONG_LOCATE_EDGES = 2,    /* a sphere's outline fitted to edges on rays */
+	PONG_LOCATE_GAUSSIAN = 0,    /* the paper's log-Gaussian, section 4.3 */
+	PONG_LOCATE_CENTROID = 1,    /* centroid weighted by the difference image */
+	PONG_LOCATE_EDGES = 2,       /* a sphere's outline fitted to edges on rays */
+	PONG_LOCATE_PHOTOMETRIC = 3, /* a lit sphere fitted to all pixels */
 } pong_locate_method;
+
+typedef enum pong_reconstruct_method {
+	PONG_RECONSTRUCT_LINEAR = 0, /* the paper's linear least squares */
+	PONG_RECONSTRUCT_LIKELY = 1, /* the most likely point by both centres' covariances */
+} pong_reconstruct_method;
 
 typedef enum pong_state_method {
 	PONG_STATE_TWO_HALVES = 0, /* the paper's smoothing, section 6, Fig. 8 */
+	PONG_STATE_FLIGHT = 1,     /* the most probable flight, with spin, through all of its points and its bounces */
 } pong_state_method;
+
+typedef enum pong_predict_method {
+	PONG_PREDICT_EULER = 0, /* the paper's: drag, Euler steps, constant factors at the bounce; section 6 */
+	PONG_PREDICT_SPIN = 1,  /* drag and Magnus force, a bounce with friction, and the covariance of it all */
+} pong_predict_method;
 
 #define PONG_GAP_MAX 64 /* frames */
 
@@ -286,6 +316,7 @@ typedef struct pong_settings {
 		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown */
 	} locate;
 	struct {
+		pong_reconstruct_method method;
 		double epipolar;      /* a pair's centres lie at most this far from each other's epipolar lines, px; */
 		double epipolar_size; /* and this part of the ball's diameter farther: the larger the ball, the larger
 					 are the errors of its centre */
@@ -297,8 +328,11 @@ typedef struct pong_settings {
 		double gate_rate; /* and this much farther for every second since the last point, m/s */
 		double lost;      /* a ball not seen for this long is lost, s */
 		double speed;     /* faster than this no ball flies, m/s */
+		double noise;     /* standard deviation of what neighbouring points err alike with, m; for points
+				     without covariance, whose scatter is found out from themselves */
 	} track;
 	struct {
+		pong_predict_method method;
 		double step;      /* of the Euler integration, s */
 		double horizon;   /* no prediction further ahead than this, s */
 		double path_step; /* of the predicted path, s */
@@ -402,7 +436,7 @@ typedef struct pong_point {
 	int64_t utime;
 	int64_t frame;
 	double position[3];
-	double covariance[3][3]; /* m^2 */
+	double covariance[3][3]; /* m^2; all zero where unknown: the best profile then finds it out */
 } pong_point;
 
 /* The fundamental matrix F of ideal (undistorted) pixels: right' F left = 0 (paper, appendix). */
@@ -426,11 +460,31 @@ PONG_API int pong_reconstruct(const pong_rig *rig, const pong_centre *left, cons
  * Track: which points belong to one flight, and the ball's state that follows from them
  */
 
+/* What the full state of a ball is made of, and the place of each part in its covariance. The coefficients are those
+ * of pong_ball_spec, as this flight has shown them; the kick is what its next bounce adds to the velocity along x, z. */
+enum {
+	PONG_STATE_POSITION = 0,
+	PONG_STATE_VELOCITY = 3,
+	PONG_STATE_SPIN = 6,
+	PONG_STATE_DRAG = 9,
+	PONG_STATE_MAGNUS = 10,
+	PONG_STATE_RESTITUTION = 11,
+	PONG_STATE_FRICTION = 12,
+	PONG_STATE_GRIP = 13,
+	PONG_STATE_KICK_X = 14,
+	PONG_STATE_KICK_Z = 15,
+	PONG_STATE_SIZE = 16
+};
+
 /* The ball at one moment. */
 typedef struct pong_state {
 	int64_t utime;
-	double position[3]; /* m */
-	double velocity[3]; /* m/s */
+	double position[3];     /* m */
+	double velocity[3];     /* m/s */
+	int has_spin;           /* whether what follows is known: not from the paper's method */
+	double spin[3];         /* rad/s */
+	double coefficients[7]; /* PONG_STATE_DRAG to PONG_STATE_KICK_Z */
+	double covariance[PONG_STATE_SIZE][PONG_STATE_SIZE];
 } pong_state;
 
 typedef enum pong_track_event {
@@ -471,12 +525,16 @@ PONG_API int pong_track_recent_state(const pong_track *track, pong_state *state)
 
 typedef struct pong_prediction {
 	int64_t utime;               /* of the state that it starts from */
-	int has_hit;                 /* 0: the ball does not come to the hit plane within the horizon */
+	int has_hit;                 /* 0: the ball does not come to the hit plane within the horizon, or not by a way
+					that can be known: it meets the net or the table's edge */
 	pong_state hit;              /* on the hit plane z = rig.hit_z */
 	double hit_covariance[4][4]; /* of x, y, z (m) and time (s); NaN where the method knows none */
 	int has_bounce;
 	pong_state bounce; /* the next bounce on the table: position, and velocity before it */
-	double spin[3];    /* rad/s; NaN where unknown */
+	int has_top;
+	pong_state top; /* the highest point after a bounce to come, for the robot that may choose; where there is a
+			   hit, be it before or behind its plane */
+	double spin[3]; /* rad/s; NaN where unknown */
 	int path_count;    /* the way to the hit, or to the horizon */
 	struct {
 		int64_t utime;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "flight.hpp"
+#include "outlook.hpp"
 
 namespace pong
 {
@@ -19,7 +20,8 @@ int64_t utime_of(const pong_state &start, double time)
 
 pong_state state_of(const pong_state &start, const Flight &flight)
 {
-	pong_state state = {utime_of(start, flight.time), {}, {}};
+	pong_state state = {};
+	state.utime = utime_of(start, flight.time);
 	store(flight.position, state.position);
 	store(flight.velocity, state.velocity);
 	return state;
@@ -70,6 +72,8 @@ int pong_predict(const pong_rig *rig, const pong_state *state, const pong_settin
 		 pong_prediction *prediction)
 {
 	*prediction = nothing_known(state->utime);
+	if (settings->predict.method == PONG_PREDICT_SPIN)
+		return look_ahead(*rig, *state, *settings, *prediction) ? PONG_FOUND : PONG_NONE;
 	Flight flight = flight_of(*state);
 	if (!flight.position.allFinite() || !flight.velocity.allFinite())
 		return PONG_NONE;
@@ -97,6 +101,8 @@ int pong_predict(const pong_rig *rig, const pong_state *state, const pong_settin
 int pong_predict_at(const pong_rig *rig, const pong_state *state, int64_t utime, const pong_settings *settings,
 		    pong_state *then)
 {
+	if (settings->predict.method == PONG_PREDICT_SPIN)
+		return look_ahead_to(*rig, *state, utime, *settings, *then) ? PONG_FOUND : PONG_NONE;
 	Flight flight = flight_of(*state);
 	const double duration = static_cast<double>(utime - state->utime) * 1e-6;
 	if (!flight.position.allFinite() || !flight.velocity.allFinite() || duration < 0 ||

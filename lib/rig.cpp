@@ -17,9 +17,34 @@ namespace
 
 const double unbounded = std::numeric_limits<double>::max();
 
-// Today's ball and air; the drag is the middle of what recorded flights show.
-const pong_ball_spec usual_ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-const pong_table usual_table = {1, 2.74, 1.525};
+// Today's ball and air; the coefficients and their spread are what recorded flights show (docs/predict.md).
+pong_ball_spec usual_ball()
+{
+	pong_ball_spec ball = {};
+	ball.diameter = 0.040;
+	ball.mass = 0.0027;
+	ball.drag = 0.40;
+	ball.drag_by_spin = 0.13;
+	ball.drag_sigma = 0.04;
+	ball.air_density = 1.2;
+	ball.bounce[0] = ball.bounce[2] = 0.8;
+	ball.bounce[1] = -0.96;
+	ball.magnus = 15e-6;
+	ball.magnus_sigma = 1.5e-6;
+	ball.magnus_saturation = 2;
+	ball.restitution = 0.92;
+	ball.restitution_sigma = 0.03;
+	ball.friction = 0.257;
+	ball.friction_sigma = 0.04;
+	ball.grip = 0.15;
+	ball.grip_sigma = 0.1;
+	ball.kick = 0.02;
+	ball.spin_sigma[0] = 150;
+	ball.spin_sigma[1] = ball.spin_sigma[2] = 50;
+	return ball;
+}
+
+const pong_table usual_table = {1, 2.74, 1.525, 0.1525};
 
 void read_number(const Document &document, const char *section, const char *key, double min, double max, double *value)
 {
@@ -27,16 +52,50 @@ void read_number(const Document &document, const char *section, const char *key,
 		*value = document.number(section, key, min, max);
 }
 
+// A coefficient of the flight: its key, its place, and what it may be.
+struct Coefficient {
+	const char *key;
+	double pong_ball_spec::*value;
+	double min, max;
+};
+
+const Coefficient coefficients[] = {
+	{"drag", &pong_ball_spec::drag, 0, 10},
+	{"drag_sigma", &pong_ball_spec::drag_sigma, 0, 10},
+	{"drag_by_spin", &pong_ball_spec::drag_by_spin, 0, 10},
+	{"magnus", &pong_ball_spec::magnus, 0, 1},
+	{"magnus_saturation", &pong_ball_spec::magnus_saturation, 0, 100},
+	{"magnus_sigma", &pong_ball_spec::magnus_sigma, 0, 1},
+	{"restitution", &pong_ball_spec::restitution, 0, 1},
+	{"restitution_sigma", &pong_ball_spec::restitution_sigma, 0, 1},
+	{"friction", &pong_ball_spec::friction, 0, 10},
+	{"friction_sigma", &pong_ball_spec::friction_sigma, 0, 10},
+	{"grip", &pong_ball_spec::grip, -1, 1},
+	{"grip_sigma", &pong_ball_spec::grip_sigma, 0, 1},
+	{"kick", &pong_ball_spec::kick, 0, 10},
+};
+
 pong_ball_spec read_ball(const Document &document)
 {
-	pong_ball_spec ball = usual_ball;
+	pong_ball_spec ball = usual_ball();
 	if (!document.has_section("ball"))
 		return ball;
-	document.allow_only("ball", {"diameter", "mass", "drag", "air_density", "bounce"});
+	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "drag_by_spin", "magnus",
+				     "magnus_sigma", "magnus_saturation", "restitution", "restitution_sigma", "friction", "friction_sigma",
+				     "grip", "grip_sigma", "kick", "spin_sigma"});
 	read_number(document, "ball", "diameter", 0.001, 1, &ball.diameter);
 	read_number(document, "ball", "mass", 0.0001, 10, &ball.mass);
-	read_number(document, "ball", "drag", 0, 10, &ball.drag);
 	read_number(document, "ball", "air_density", 0, 100, &ball.air_density);
+	for (const Coefficient &coefficient : coefficients)
+		read_number(document, "ball", coefficient.key, coefficient.min, coefficient.max,
+			    &(ball.*coefficient.value));
+	if (document.has("ball", "spin_sigma")) {
+		const auto sigma = document.numbers("ball", "spin_sigma", 3);
+		for (const double one : sigma)
+			if (!(one >= 0 && one <= 10000))
+				document.refuse("ball", "spin_sigma", "needs numbers between 0 and 10000 rad/s");
+		std::copy(sigma.begin(), sigma.end(), ball.spin_sigma);
+	}
 	if (document.has("ball", "bounce")) {
 		const auto bounce = document.numbers("ball", "bounce", 3);
 		if (bounce[1] > 0 || bounce[1] < -1)
@@ -50,11 +109,12 @@ pong_ball_spec read_ball(const Document &document)
 pong_table read_table(const Document &document)
 {
 	if (!document.has_section("table"))
-		return {0, 0, 0};
+		return {0, 0, 0, 0};
 	pong_table table = usual_table;
-	document.allow_only("table", {"length", "width"});
+	document.allow_only("table", {"length", "width", "net"});
 	read_number(document, "table", "length", 0.1, 100, &table.length);
 	read_number(document, "table", "width", 0.1, 100, &table.width);
+	read_number(document, "table", "net", 0, 10, &table.net);
 	return table;
 }
 
@@ -97,7 +157,8 @@ pong_camera read_camera(const Document &document, const char *section)
 	return camera;
 }
 
-pong_rig read_rig(const Document &document)
+// All but the cameras.
+pong_rig read_flight(const Document &document)
 {
 	pong_rig rig = {};
 	rig.ball = read_ball(document);
@@ -106,6 +167,12 @@ pong_rig read_rig(const Document &document)
 		document.allow_only("hit", {"z"});
 		read_number(document, "hit", "z", -unbounded, unbounded, &rig.hit_z);
 	}
+	return rig;
+}
+
+pong_rig read_rig(const Document &document)
+{
+	pong_rig rig = read_flight(document);
 	rig.camera[PONG_LEFT] = read_camera(document, "left");
 	rig.camera[PONG_RIGHT] = read_camera(document, "right");
 	return rig;
@@ -152,11 +219,14 @@ std::string write_camera(const pong_camera &camera, const char *section)
 std::string write_rig(const pong_rig &rig)
 {
 	std::string text = "[ball]\ndiameter = " + digits(rig.ball.diameter) + "\nmass = " + digits(rig.ball.mass) +
-			   "\ndrag = " + digits(rig.ball.drag) + "\nair_density = " + digits(rig.ball.air_density) +
+			   "\nair_density = " + digits(rig.ball.air_density) +
 			   "\nbounce = " + list(rig.ball.bounce, 3, 3) + "\n";
+	for (const Coefficient &coefficient : coefficients)
+		text += std::string(coefficient.key) + " = " + digits(rig.ball.*coefficient.value) + "\n";
+	text += "spin_sigma = " + list(rig.ball.spin_sigma, 3, 3) + "\n";
 	if (rig.table.present)
 		text += "\n[table]\nlength = " + digits(rig.table.length) + "\nwidth = " + digits(rig.table.width) +
-			"\n";
+			"\nnet = " + digits(rig.table.net) + "\n";
 	return text + "\n[hit]\nz = " + digits(rig.hit_z) + "\n" + write_camera(rig.camera[PONG_LEFT], "left") +
 	       write_camera(rig.camera[PONG_RIGHT], "right");
 }
@@ -164,6 +234,13 @@ std::string write_rig(const pong_rig &rig)
 } // namespace
 
 } // namespace pong
+
+void pong_rig_defaults(pong_rig *rig)
+{
+	*rig = {};
+	rig->ball = pong::usual_ball();
+	rig->table = pong::usual_table;
+}
 
 int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error)
 {
@@ -177,6 +254,14 @@ int pong_rig_load(const char *path, pong_rig *rig, pong_error *error)
 {
 	return pong::guarded(error, [&] {
 		*rig = pong::read_rig(pong::Document(pong::read_file(path), path));
+		return PONG_FOUND;
+	});
+}
+
+int pong_rig_load_flight(const char *path, pong_rig *rig, pong_error *error)
+{
+	return pong::guarded(error, [&] {
+		*rig = pong::read_flight(pong::Document(pong::read_file(path), path));
 		return PONG_FOUND;
 	});
 }

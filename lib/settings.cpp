@@ -32,6 +32,7 @@ void read_numbers(const Document &document, pong_settings &settings)
 		{"track", "gate", &settings.track.gate, 0.001, 10},
 		{"track", "gate_rate", &settings.track.gate_rate, 0, 100},
 		{"track", "lost", &settings.track.lost, 0.001, 10},
+		{"track", "noise", &settings.track.noise, 0, 1},
 		{"track", "speed", &settings.track.speed, 0.1, 200},
 		{"predict", "step", &settings.predict.step, 0.00001, 0.1},
 		{"predict", "horizon", &settings.predict.horizon, 0.01, 10},
@@ -64,9 +65,9 @@ void read_settings(const Document &document, pong_settings &settings)
 		{"region", {"ceiling", "margin", "behind", "distance"}},
 		{"detect", {"method", "gap", "contrast"}},
 		{"locate", {"method", "sigma", "exposure"}},
-		{"reconstruct", {"epipolar", "epipolar_size", "size"}},
-		{"track", {"state", "gate", "gate_rate", "lost", "speed"}},
-		{"predict", {"step", "horizon", "path_step"}},
+		{"reconstruct", {"method", "epipolar", "epipolar_size", "size"}},
+		{"track", {"state", "gate", "gate_rate", "lost", "speed", "noise"}},
+		{"predict", {"method", "step", "horizon", "path_step"}},
 		{"window", {"margin", "diameters"}},
 	};
 	for (const auto &[section, keys] : sections)
@@ -87,10 +88,16 @@ void read_settings(const Document &document, pong_settings &settings)
 		settings.detect.gap = static_cast<int>(document.number("detect", "gap", 1, PONG_GAP_MAX));
 	if (document.has("locate", "method"))
 		settings.locate.method = static_cast<pong_locate_method>(
-			read_word(document, "locate", "method", {"gaussian", "centroid", "edges"}));
+			read_word(document, "locate", "method", {"gaussian", "centroid", "edges", "photometric"}));
+	if (document.has("reconstruct", "method"))
+		settings.reconstruct.method = static_cast<pong_reconstruct_method>(
+			read_word(document, "reconstruct", "method", {"linear", "likely"}));
 	if (document.has("track", "state"))
 		settings.track.state =
-			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves"}));
+			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves", "flight"}));
+	if (document.has("predict", "method"))
+		settings.predict.method = static_cast<pong_predict_method>(
+			read_word(document, "predict", "method", {"euler", "spin"}));
 }
 
 } // namespace
@@ -108,16 +115,19 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;
 	settings->detect.gap = 8;
 	settings->detect.contrast = 8;
-	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_EDGES;
+	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_PHOTOMETRIC;
 	settings->locate.sigma = 0.3;
+	settings->reconstruct.method = profile == PONG_PAPER ? PONG_RECONSTRUCT_LINEAR : PONG_RECONSTRUCT_LIKELY;
 	settings->reconstruct.epipolar = 1.5;
 	settings->reconstruct.epipolar_size = 0.1;
 	settings->reconstruct.size = 0.35;
-	settings->track.state = PONG_STATE_TWO_HALVES;
+	settings->track.state = profile == PONG_PAPER ? PONG_STATE_TWO_HALVES : PONG_STATE_FLIGHT;
 	settings->track.gate = 0.15;
 	settings->track.gate_rate = 2;
-	settings->track.lost = 0.1;
+	settings->track.lost = profile == PONG_PAPER ? 0.1 : 0.6;
 	settings->track.speed = 40;
+	settings->track.noise = 0.0025;
+	settings->predict.method = profile == PONG_PAPER ? PONG_PREDICT_EULER : PONG_PREDICT_SPIN;
 	settings->predict.step = 0.001;
 	settings->predict.horizon = 1.5;
 	settings->predict.path_step = 0.02;

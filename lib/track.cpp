@@ -1,15 +1,14 @@
 // Which points belong to one flight, and the ball's state that follows from them.
 //
 // A point continues the flight if it lies near where the flight is expected at its time. One that does not may be
-// noise, or the first of another ball: it opens a second flight beside the first, and takes over once that has been
-// confirmed by a further point while the first one was not seen.
+// noise, the ball struck back, or another ball: it opens a second flight beside the first, which takes over once
+// further points have confirmed it.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "error.hpp"
-#include "flight.hpp"
+#include "estimate.hpp"
+#include "halves.hpp"
 
 namespace pong
 {
@@ -17,123 +16,73 @@ namespace pong
 namespace
 {
 
-const size_t points_capacity = 512; // of one flight: over four seconds
-const size_t recent_count = 6;      // points that tell where the ball is just now
-const double bounce_margin = 0.02;  // a ball this far above where it would be without a bounce has bounced, m
+const int confirmed = 3;             // points that make a second flight believed
+const double expected_sigma = 0.015; // what no covariance knows of where a ball is expected, m
+const double surprise = 25;          // squared normalised distance of a point that is not the expected ball
 
 double seconds(int64_t from, int64_t to)
 {
 	return static_cast<double>(to - from) * 1e-6;
 }
 
-// Means over a run of points: half of the paper's Fig. 8.
-struct Mean {
-	Vector3 position;
-	double time;
-};
-
-Mean mean_of(const std::vector<pong_point> &points, size_t begin, size_t end)
-{
-	Mean mean = {Vector3::Zero(), 0};
-	for (size_t i = begin; i < end; i++) {
-		mean.position += vector_of(points[i].position);
-		mean.time += seconds(points[begin].utime, points[i].utime);
-	}
-	const double count = static_cast<double>(end - begin);
-	mean.position /= count;
-	mean.time /= count;
-	return mean;
-}
-
-// The paper's smoothing: cut the points [begin, end) in two halves; with x and z their means, y = (x + z) / 2 is the
-// position and (z - x) / (t_z - t_x) the velocity. An odd one in the middle belongs to both.
-pong_state two_halves(const std::vector<pong_point> &points, size_t begin, size_t end)
-{
-	const size_t half = (end - begin + 1) / 2;
-	const Mean x = mean_of(points, begin, begin + half), z = mean_of(points, end - half, end);
-	const double x_time = x.time, z_time = z.time + seconds(points[begin].utime, points[end - half].utime);
-	pong_state state = {points[begin].utime + std::llround(1e6 * (x_time + z_time) / 2), {}, {}};
-	store((x.position + z.position) / 2, state.position);
-	store((z.position - x.position) / (z_time - x_time), state.velocity);
-	return state;
-}
-
-// The points of one ball.
-class PointRun
+// The flight of one ball, by the method that was chosen.
+class Run
 {
 public:
-	PointRun()
+	Run(const pong_rig &rig, const pong_settings &settings)
+		: method_(settings.track.state), estimate_(rig, settings.track.noise)
 	{
-		points_.reserve(points_capacity);
 	}
 
 	void clear()
 	{
-		points_.clear();
-		since_bounce_ = before_bounce_ = 0;
-	}
-
-	size_t size() const
-	{
-		return points_.size();
-	}
-
-	const pong_point &last() const
-	{
-		return points_.back();
+		count_ = 0;
+		halves_.clear();
+		estimate_.clear();
 	}
 
 	void add(const pong_point &point, const pong_rig &rig)
 	{
-		if (points_.size() == points_capacity)
-			forget_half();
-		if (has_bounced(point, rig)) {
-			before_bounce_ = since_bounce_;
-			since_bounce_ = points_.size();
-		}
-		points_.push_back(point);
+		if (count_ == 0)
+			first_ = point.utime;
+		last_ = point;
+		count_++;
+		if (method_ == PONG_STATE_FLIGHT)
+			estimate_.add(point);
+		else
+			halves_.add(point, rig);
 	}
 
-	// From the latest `most` points of the leg since the last bounce; from the leg before it where the new one has
-	// but one point yet.
-	bool state(size_t most, pong_state *state) const
+	bool state(pong_state *state) const
 	{
-		size_t begin = since_bounce_, end = points_.size();
-		if (end - begin < 2) {
-			begin = before_bounce_;
-			end = since_bounce_ > 0 ? since_bounce_ : end;
-		}
-		if (end - begin < 2)
-			return false;
-		if (end - begin > most)
-			begin = end - most;
-		*state = two_halves(points_, begin, end);
-		return true;
+		return method_ == PONG_STATE_FLIGHT ? count_ > 1 && estimate_.state(state) : halves_.state(state);
+	}
+
+	bool recent_state(pong_state *recent) const
+	{
+		return method_ == PONG_STATE_FLIGHT ? state(recent) : halves_.recent_state(recent);
+	}
+
+	int count() const
+	{
+		return count_;
+	}
+	int64_t first() const
+	{
+		return first_;
+	}
+	const pong_point &last() const
+	{
+		return last_;
 	}
 
 private:
-	void forget_half()
-	{
-		const size_t half = points_capacity / 2;
-		points_.erase(points_.begin(), points_.begin() + half);
-		since_bounce_ -= std::min(since_bounce_, half);
-		before_bounce_ -= std::min(before_bounce_, half);
-	}
-
-	// Whether the ball has bounced before this point: without a bounce it would be below the table.
-	bool has_bounced(const pong_point &point, const pong_rig &rig) const
-	{
-		pong_state recent;
-		if (!rig.table.present || !state(recent_count, &recent) || recent.velocity[1] > 0)
-			return false;
-		const double time = seconds(recent.utime, point.utime);
-		const double gravity = 9.8;
-		const double height = recent.position[1] + time * recent.velocity[1] - gravity / 2 * time * time;
-		return height < rig.ball.diameter / 2 && point.position[1] > height + bounce_margin;
-	}
-
-	std::vector<pong_point> points_;
-	size_t since_bounce_ = 0, before_bounce_ = 0; // where the present leg and the one before it begin
+	pong_state_method method_;
+	int count_ = 0;
+	int64_t first_ = 0;
+	pong_point last_ = {};
+	Halves halves_;
+	Estimate estimate_;
 };
 
 } // namespace
@@ -145,7 +94,8 @@ using namespace pong;
 struct pong_track {
 	pong_rig rig;
 	pong_settings settings;
-	PointRun flight, other; // the ball that is followed, and one that may take its place
+	Run run[2];
+	Run *flight, *other; // the ball that is followed, and one that may take its place
 	int32_t id;
 	int32_t flights; // numbers given out
 };
@@ -156,22 +106,71 @@ namespace pong
 namespace
 {
 
-// How far the point is from where the run's ball is expected at its time, over how far it may be.
-bool fits(const pong_track &track, const PointRun &run, const pong_point &point)
+// True covariances say how far the point may lie from where it is expected; where the point has none, the gate does.
+bool within_covariance(const pong_track &track, const pong_state &expected, const pong_point &point)
+{
+	using Covariance = Eigen::Matrix<double, PONG_STATE_SIZE, PONG_STATE_SIZE, Eigen::RowMajor>;
+	const Eigen::Map<const Covariance> covariance(&expected.covariance[0][0]);
+	const Eigen::Map<const Matrix3> of_point(&point.covariance[0][0]);
+	const double sigma = of_point.isZero(0) ? track.settings.track.gate / 3 : expected_sigma;
+	const Matrix3 spread = covariance.topLeftCorner<3, 3>() + of_point + sigma * sigma * Matrix3::Identity();
+	const Vector3 distance = vector_of(point.position) - vector_of(expected.position);
+	return distance.dot(spread.inverse() * distance) <= surprise;
+}
+
+// Whether the point can be the run's ball at its time.
+bool fits(const pong_track &track, const Run &run, const pong_point &point)
 {
 	const double waited = seconds(run.last().utime, point.utime);
 	if (!(waited > 0) || waited > track.settings.track.lost)
 		return false;
 	pong_state recent, expected;
 	double reach = track.settings.track.gate + track.settings.track.gate_rate * waited;
-	if (run.state(recent_count, &recent)) {
+	if (run.recent_state(&recent)) {
 		if (!pong_predict_at(&track.rig, &recent, point.utime, &track.settings, &expected))
 			return false;
+		if (expected.has_spin)
+			return within_covariance(track, expected, point);
 	} else {
 		std::copy_n(run.last().position, 3, expected.position);
 		reach = track.settings.track.gate + track.settings.track.speed * waited;
 	}
 	return (vector_of(point.position) - vector_of(expected.position)).norm() <= reach;
+}
+
+bool flies_to_robot(const Run &run)
+{
+	pong_state state;
+	return run.recent_state(&state) && state.velocity[2] < 0;
+}
+
+// Two balls are seen where the flight has had points since the other began. The paper knows one ball only: the newest.
+bool prefer_flight(const pong_track &track)
+{
+	return track.settings.track.state == PONG_STATE_FLIGHT && track.flight->last().utime > track.other->first() &&
+	       (flies_to_robot(*track.flight) || !flies_to_robot(*track.other));
+}
+
+pong_track_event push_other(pong_track &track, const pong_point &point)
+{
+	Run &other = *track.other;
+	if (other.count() > 0 && point.utime <= other.last().utime)
+		return PONG_TRACK_REJECTED;
+	if (other.count() > 0 && !fits(track, other, point))
+		other.clear();
+	other.add(point, track.rig);
+	if (other.count() < confirmed || prefer_flight(track))
+		return PONG_TRACK_REJECTED;
+	std::swap(track.flight, track.other);
+	track.other->clear();
+	track.id = ++track.flights;
+	return PONG_TRACK_BEGUN;
+}
+
+bool usable(const pong_point &point)
+{
+	return vector_of(point.position).allFinite() &&
+	       Eigen::Map<const Matrix3>(&point.covariance[0][0]).allFinite();
 }
 
 } // namespace
@@ -180,7 +179,12 @@ bool fits(const pong_track &track, const PointRun &run, const pong_point &point)
 
 pong_track *pong_track_new(const pong_rig *rig, const pong_settings *settings, pong_error *error)
 {
-	return guarded_new(error, [&] { return new pong_track{*rig, *settings, {}, {}, 0, 0}; });
+	return guarded_new(error, [&] {
+		pong_track *track = new pong_track{*rig, *settings, {Run(*rig, *settings), Run(*rig, *settings)}, nullptr, nullptr, 0, 0};
+		track->flight = &track->run[0];
+		track->other = &track->run[1];
+		return track;
+	});
 }
 
 void pong_track_free(pong_track *track)
@@ -190,36 +194,28 @@ void pong_track_free(pong_track *track)
 
 pong_track_event pong_track_push(pong_track *track, const pong_point *point)
 {
-	PointRun &flight = track->flight, &other = track->other;
+	if (!usable(*point))
+		return PONG_TRACK_REJECTED;
 	pong_track_miss(track, point->utime);
-	if (flight.size() == 0) {
-		flight.add(*point, track->rig);
+	if (track->flight->count() == 0) {
+		track->flight->add(*point, track->rig);
 		track->id = ++track->flights;
 		return PONG_TRACK_BEGUN;
 	}
-	if (point->utime <= flight.last().utime)
+	if (point->utime <= track->flight->last().utime)
 		return PONG_TRACK_REJECTED;
-	if (fits(*track, flight, *point)) {
-		flight.add(*point, track->rig);
-		return PONG_TRACK_FOLLOWED;
-	}
-	if (other.size() > 0 && !fits(*track, other, *point))
-		other.clear();
-	other.add(*point, track->rig);
-	if (other.size() < 3)
-		return PONG_TRACK_REJECTED;
-	std::swap(flight, other);
-	other.clear();
-	track->id = ++track->flights;
-	return PONG_TRACK_BEGUN;
+	if (!fits(*track, *track->flight, *point))
+		return push_other(*track, *point);
+	track->flight->add(*point, track->rig);
+	return PONG_TRACK_FOLLOWED;
 }
 
 void pong_track_miss(pong_track *track, int64_t utime)
 {
-	if (track->flight.size() == 0 || seconds(track->flight.last().utime, utime) <= track->settings.track.lost)
+	if (track->flight->count() == 0 || seconds(track->flight->last().utime, utime) <= track->settings.track.lost)
 		return;
-	track->flight.clear();
-	track->other.clear();
+	track->flight->clear();
+	track->other->clear();
 	track->id = 0;
 }
 
@@ -230,15 +226,15 @@ int32_t pong_track_id(const pong_track *track)
 
 int pong_track_count(const pong_track *track)
 {
-	return static_cast<int>(track->flight.size());
+	return track->flight->count();
 }
 
 int pong_track_state(const pong_track *track, pong_state *state)
 {
-	return track->flight.state(points_capacity, state) ? PONG_FOUND : PONG_NONE;
+	return track->flight->state(state) ? PONG_FOUND : PONG_NONE;
 }
 
 int pong_track_recent_state(const pong_track *track, pong_state *state)
 {
-	return track->flight.state(recent_count, state) ? PONG_FOUND : PONG_NONE;
+	return track->flight->recent_state(state) ? PONG_FOUND : PONG_NONE;
 }

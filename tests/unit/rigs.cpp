@@ -33,8 +33,7 @@ pong_camera test_camera(double x)
 pong_rig test_rig()
 {
 	pong_rig rig = {};
-	rig.ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-	rig.table = {1, 2.74, 1.525};
+	pong_rig_defaults(&rig);
 	rig.camera[PONG_LEFT] = test_camera(0.09);
 	rig.camera[PONG_RIGHT] = test_camera(-0.09);
 	return rig;

@@ -332,6 +332,18 @@ TEST_F(GigeControl, EveryStartIsANewSession)
 	EXPECT_FALSE(control.wait_in_session(0, first));
 }
 
+TEST_F(GigeControl, SoftwareTriggersCountFromTheStart)
+{
+	stream();
+	write(at::trigger_software, 1);
+	write(at::trigger_software, 1);
+	EXPECT_EQ(control.acquisition().software_triggers, 2u);
+	write(at::acquisition_stop, 1);
+	write(at::trigger_software, 1);
+	write(at::acquisition_start, 1);
+	EXPECT_EQ(control.acquisition().software_triggers, 0u);
+}
+
 TEST_F(GigeControl, LatchesItsClock)
 {
 	take_control();

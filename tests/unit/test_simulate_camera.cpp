@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "camera.hpp"
+#include "tools/simulate/camera.hpp"
 
 namespace
 {

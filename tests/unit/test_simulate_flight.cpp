@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "flight.hpp"
 #include "program.hpp"
-#include "room.hpp"
-#include "serve.hpp"
+#include "tools/simulate/flight.hpp"
+#include "tools/simulate/room.hpp"
+#include "tools/simulate/serve.hpp"
 
 namespace
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer.hpp"
+#include "tools/simulate/renderer.hpp"
 
 namespace
 {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "program.hpp"
-#include "scene.hpp"
-#include "truth.hpp"
-#include "world.hpp"
+#include "tools/simulate/scene.hpp"
+#include "tools/simulate/truth.hpp"
+#include "tools/simulate/world.hpp"
 
 namespace
 {

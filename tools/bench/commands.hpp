@@ -10,4 +10,10 @@ int calibration(int argc, char **argv);
 // Score a tracker's output against a simulator's truth.
 int score(int argc, char **argv);
 
+// Draw one flight.
+int draw(int argc, char **argv);
+
+// Predict simulated launches, by the library and by rivals, beside the Cramer-Rao bound.
+int prediction(int argc, char **argv);
+
 } // namespace bench

@@ -64,6 +64,11 @@ void TableWriter::add(double value, int decimals)
 	add_text(std::isfinite(value) ? text : "-");
 }
 
+void TableWriter::add(const std::string &word)
+{
+	add_text(word.c_str());
+}
+
 void TableWriter::add_absent(int count)
 {
 	while (count-- > 0)

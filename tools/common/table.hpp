@@ -20,6 +20,7 @@ public:
 
 	void add(int64_t value);
 	void add(double value, int decimals = 6); // NaN is absent
+	void add(const std::string &word);        // without blanks
 	void add_absent(int count = 1);
 	// Throws Failure where the disk is full.
 	void end_row();

@@ -54,7 +54,7 @@ void make_folder(const std::string &path)
 
 } // namespace
 
-void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed)
+int64_t write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed)
 {
 	make_folder(settings.path);
 	const Rig rig = make_rig(scene.rig);
@@ -65,7 +65,8 @@ void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t s
 		boards.emplace(settings.path + "/boards.txt");
 	World world(scene, rig, seed, settings.rate, 1);
 	Photographer left(settings, scene, rig[0], seed, 0), right(settings, scene, rig[1], seed, 1);
-	for (int64_t frame = 0; frame < settings.frames && !pong::stop_requested(); frame++) {
+	int64_t frame = 0;
+	for (; frame < settings.frames && !pong::stop_requested(); frame++) {
 		const double time = static_cast<double>(frame) / settings.rate;
 		const int64_t utime = std::llround(1e6 * time);
 		const auto episode = world.at(time);
@@ -78,6 +79,7 @@ void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t s
 			pong::say(pong::format("%lld of %lld frames", static_cast<long long>(frame + 1),
 					       static_cast<long long>(settings.frames)));
 	}
+	return frame;
 }
 
 } // namespace sim

@@ -15,7 +15,8 @@ struct FolderSettings {
 };
 
 // Writes NAME-left.png and NAME-right.png, NAME the frame's number from 000000 on, rig.toml, truth.txt, and boards.txt
-// where the scene has boards. Throws pong::Failure where it cannot.
-void write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed);
+// where the scene has boards. Returns the number of frames written: fewer where Ctrl-C came. Throws pong::Failure where
+// it cannot.
+int64_t write_folder(const FolderSettings &settings, const Scene &scene, uint64_t seed);
 
 } // namespace sim

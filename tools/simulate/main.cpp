@@ -28,7 +28,7 @@ pong::Options options(Request *request)
 		"Show a ball, rendered with its true position known, to pongeye-track: as a folder of pictures, or as\n"
 		"two GigE Vision cameras on loopback (127.0.0.1 left, 127.0.0.2 right).",
 		"  $ pongeye-simulate --out pictures --flights 2 --seed 7\n"
-		"  pongeye-simulate: 259 frames of scene rally written to pictures\n"
+		"  pongeye-simulate: 293 frames of scene rally written to pictures\n"
 		"  $ ls pictures | head -3\n"
 		"  000000-left.png\n"
 		"  000000-right.png\n"
@@ -84,9 +84,9 @@ int64_t frames_of(const Request &request, const sim::Scene &scene)
 
 void serve_cameras(const Request &request, const sim::Scene &scene, int64_t frames)
 {
-	sim::LiveWorld world(scene, static_cast<uint64_t>(request.seed), request.rate, request.truth);
 	if (!request.rig.empty())
 		sim::write_text(request.rig, sim::rig_text(sim::make_rig(scene.rig), scene.hit_z));
+	sim::LiveWorld world(scene, static_cast<uint64_t>(request.seed), request.rate, request.truth);
 	gige::ServerSettings settings;
 	settings.cameras = {{"127.0.0.1", "SIML"}, {"127.0.0.2", "SIMR"}};
 	settings.width = scene.rig.width;
@@ -116,8 +116,9 @@ int simulate(int argc, char **argv)
 		serve_cameras(request, scene, frames);
 		return 0;
 	}
-	sim::write_folder({request.folder, request.rate, frames}, scene, static_cast<uint64_t>(request.seed));
-	pong::say(pong::format("%lld frames of scene %s written to %s", static_cast<long long>(frames),
+	const int64_t written =
+		sim::write_folder({request.folder, request.rate, frames}, scene, static_cast<uint64_t>(request.seed));
+	pong::say(pong::format("%lld frames of scene %s written to %s", static_cast<long long>(written),
 			       request.scene.c_str(), request.folder.c_str()));
 	return 0;
 }

@@ -11,7 +11,7 @@ namespace track
 namespace
 {
 
-constexpr int BUFFERS = 32; // of a stream: 0.3 s at 110 Hz
+constexpr int BUFFERS = 64; // of a stream: more than are ever waiting to be tracked, so that it never runs dry
 constexpr int STREAM_PRIORITY = 10;
 
 // Aravis' way to report a failure, turned into ours.
@@ -228,24 +228,13 @@ void Camera::give_back(void *buffer)
 	arv_stream_push_buffer(stream_.get(), static_cast<ArvBuffer *>(buffer));
 }
 
-int64_t Camera::late() const
-{
-	guint64 completed, failed, underruns;
-	arv_stream_get_statistics(stream_.get(), &completed, &failed, &underruns);
-	return static_cast<int64_t>(underruns);
-}
-
 // In the stream's own thread.
 void Camera::on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *)
 {
-	static std::once_flag warned;
-	if (event == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE)
+	if (event == ARV_STREAM_CALLBACK_TYPE_INIT)
+		make_thread_realtime(STREAM_PRIORITY);
+	else if (event == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE)
 		static_cast<Camera *>(camera)->receive_buffer();
-	else if (event == ARV_STREAM_CALLBACK_TYPE_INIT && !arv_make_thread_realtime(STREAM_PRIORITY))
-		std::call_once(warned, [] {
-			pong::say("the cameras' threads run without real-time priority, which this user may not have: "
-				  "under load pictures come later");
-		});
 }
 
 void Camera::receive_buffer()
@@ -259,7 +248,10 @@ void Camera::receive_buffer()
 		return;
 	}
 	const int64_t arrival_ns = monotonic_ns();
-	receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer});
+	if (!receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
+		late_++;
+		give_back(buffer);
+	}
 }
 
 int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
@@ -268,6 +260,16 @@ int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
 		return unix_ns() - exposure_ns_;
 	const std::lock_guard<std::mutex> lock(clock_mutex_);
 	return clock_.host_ns(static_cast<int64_t>(arv_buffer_get_timestamp(buffer)));
+}
+
+void make_thread_realtime(int priority)
+{
+	static std::once_flag warned;
+	if (!arv_make_thread_realtime(priority))
+		std::call_once(warned, [] {
+			pong::say(
+				"no real-time priority, which this user may not have: under load pictures come later");
+		});
 }
 
 pong_image image_of(void *buffer)

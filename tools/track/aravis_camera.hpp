@@ -28,8 +28,8 @@ class Camera
 {
 public:
 	// What to do with a complete picture; called in the camera's own thread. Its buffer is an ArvBuffer, to be
-	// given back.
-	using Receive = std::function<void(pong_side side, const Picture &picture)>;
+	// given back. Returns false where it cannot be taken: then it is dropped.
+	using Receive = std::function<bool(pong_side side, const Picture &picture)>;
 
 	// Finds the camera and sets it up. Throws pong::Failure.
 	Camera(pong_side side, const pong_camera &camera, const CaptureSettings &settings, Receive receive);
@@ -58,8 +58,11 @@ public:
 		return incomplete_;
 	}
 
-	// Pictures that found no free buffer.
-	int64_t late() const;
+	// Pictures that were not taken.
+	int64_t late() const
+	{
+		return late_;
+	}
 
 	// "left camera 192.168.1.10"
 	const std::string &name() const
@@ -89,8 +92,11 @@ private:
 	std::mutex clock_mutex_;
 	ClockFit clock_;
 	std::atomic<bool> lost_{false};
-	std::atomic<int64_t> incomplete_{0};
+	std::atomic<int64_t> incomplete_{0}, late_{0};
 };
+
+// Real-time priority for the calling thread; where the user may not have it, it is said once, and all goes on.
+void make_thread_realtime(int priority);
 
 // What a picture's buffer holds.
 pong_image image_of(void *buffer);

@@ -15,10 +15,11 @@ constexpr char SUMMARY[] =
 	"Watch two cameras, or a folder of stereo pictures, and publish over LCM where the ball is (PONGEYE_BALL),\n"
 	"where and when it can be hit (PONGEYE_PREDICTION), and how the tracker is doing (PONGEYE_STATUS).";
 
-constexpr char EXAMPLE[] =
-	"  $ pongeye-track --rig rig.toml --images flight --output flight.txt\n"
-	"  pongeye-track: 44 pairs, 38 with a ball; 0 pictures dropped (0 without a partner, 0 incomplete,\n"
-	"  0 too late, 0 out of order); latency median 0.31 ms, p99 0.75 ms, max 0.75 ms";
+constexpr char EXAMPLE[] = "  $ pongeye-simulate --out pictures --flights 2 --seed 7\n"
+			   "  $ pongeye-track --rig pictures/rig.toml --images pictures --output balls.txt\n"
+			   "  pongeye-track: 293 pairs, 99 with a ball; 0 pictures dropped (0 without a partner, 0 "
+			   "incomplete, 0 too late, "
+			   "0 out of order); latency median 0.48 ms, p99 8.39 ms, max 8.39 ms";
 
 } // namespace
 

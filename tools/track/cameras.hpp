@@ -10,7 +10,8 @@
 namespace track
 {
 
-// Opens both cameras and starts them. Throws pong::Failure.
+// Opens both cameras and starts them. The calling thread, which is to call next(), gets real-time priority where the
+// user may have it. Throws pong::Failure.
 std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings);
 
 // Prints the cameras that answer as a table on stdout. Throws pong::Failure where there is none.

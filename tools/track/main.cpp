@@ -44,11 +44,14 @@ struct Session {
 	int64_t end_ns; // by monotonic_ns()
 };
 
-Eye open_eye(const pong_rig &rig, int profile)
+// With the profile's settings, and rig.toml's where it has its own.
+Eye open_eye(const pong_rig &rig, const Arguments &arguments)
 {
 	pong_settings settings;
-	pong_settings_defaults(static_cast<pong_profile>(profile), &settings);
+	pong_settings_defaults(static_cast<pong_profile>(arguments.profile), &settings);
 	pong_error error;
+	if (pong_settings_load(arguments.rig.c_str(), &settings, &error) < 0)
+		throw pong::Failure(error.text);
 	Eye eye(pong_eye_new(&rig, &settings, &error));
 	if (!eye)
 		throw pong::Failure(error.text);
@@ -150,7 +153,7 @@ int run(int argc, char **argv)
 		return 0;
 	}
 	const pong_rig rig = load_rig(arguments.rig);
-	Eye eye = open_eye(rig, arguments.profile);
+	Eye eye = open_eye(rig, arguments);
 	Sinks sinks = open_sinks(arguments);
 	const std::unique_ptr<Source> source = open_source(arguments, rig);
 	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};

@@ -19,7 +19,7 @@ struct StereoPair {
 struct Dropped {
 	int64_t unpaired = 0;   // no picture of the other camera belongs to it
 	int64_t incomplete = 0; // packets were lost on the way
-	int64_t late = 0;       // came while every buffer was still in use
+	int64_t late = 0;       // came while too many were still waiting
 
 	int64_t total() const
 	{

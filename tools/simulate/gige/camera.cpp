@@ -121,7 +121,7 @@ void Camera::begin_session(const Acquisition &acquisition)
 {
 	session_ = acquisition.session;
 	session_begin_ = monotonic_now();
-	software_triggers_ = acquisition.software_triggers;
+	software_triggers_ = 0;
 	frame_id_ = 0;
 	ring_.clear();
 }

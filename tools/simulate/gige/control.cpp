@@ -245,8 +245,10 @@ void Control::fire_test_packet(Answer &answer)
 
 void Control::start()
 {
-	if (!session_)
-		session_ = ++sessions_;
+	if (session_)
+		return;
+	session_ = ++sessions_;
+	software_triggers_ = 0;
 }
 
 void Control::stop()

@@ -26,7 +26,7 @@ struct Acquisition {
 	uint64_t changes = 0; // so far
 	uint64_t session = 0; // another number after every start; 0: not streaming
 	bool is_triggered = false, by_line = false;
-	uint64_t software_triggers = 0; // so far
+	uint64_t software_triggers = 0; // since the start
 	double frame_rate = 0;          // Hz, where not triggered
 	double exposure = 0;            // s
 	double gain = 0;                // dB

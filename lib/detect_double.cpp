@@ -1,0 +1,325 @@
+// The search in a picture for what it shows and two earlier ones don't.
+//
+// 1. Cells of 4 x 4 pixels are compared with the earlier picture's; where they differ by more than the noise, measured
+// in
+//    the pictures themselves, with the older one's too. Most of a picture ends here.
+// 2. Cells that lie outside of both, and touch, are one group.
+// 3. A group is looked at close up, pixel by pixel. If what is lit there is a ball, it is one detection.
+// 4. A larger group may be a ball beside something else that moves. It is scanned for the five points.
+//
+// A lamp that flickers makes the whole picture brighter or darker: a gain, measured together with the noise.
+#include <cmath>
+#include <vector>
+
+#include "blob.hpp"
+#include "conditions.hpp"
+#include "five_points.hpp"
+#include "region.hpp"
+
+namespace pong
+{
+
+namespace
+{
+
+const double noise_factor = 4.5;  // a cell is lit from so many standard deviations of its noise,
+const double contrast_part = 0.3; // and from this part of the least contrast of a ball
+const double noise_least = 0.25;  // of a cell's mean, grey levels: pictures are rounded
+const double noise_most = 4;
+const int sampled_strips = 4;   // rows of cells that tell noise and gain
+const int sampled_cells = 64;   // of each
+const int close_margin = 6;     // a group is looked at with so many pixels around, px
+const double close_noise = 1.5; // the noise of a patch's 3 x 3 mean, over that of a cell's
+const int strips_ahead = 4;     // rows of cells that are fetched before they are read
+const int tries_most = 64;      // measurements of one large group
+const double larger = 1.5;      // groups this much larger than the largest ball are more than a ball
+
+// A group of cells that touch.
+struct Group {
+	int columns[2], rows[2]; // first and last
+	double weight, weight2;  // sums of the cells' differences and of their squares
+
+	double contrast() const // grey levels; the full cells count most
+	{
+		return weight2 / weight / cell_pixels;
+	}
+};
+
+// What the pictures say of themselves.
+struct Conditions {
+	Gains gains;
+	double noise; // standard deviation of the difference of two cells' means, grey levels
+};
+
+class DoubleDifference : public DetectMethod
+{
+public:
+	DoubleDifference(const pong_region &region, const pong_settings &settings);
+
+	int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
+		   int capacity) override;
+
+private:
+	Area searched_cells(const pong_window *window) const;
+	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells);
+	void light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells);
+	void light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row, int begin,
+			 int count, const uint8_t *ahead[2]);
+	Group take_group(int first);
+	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
+		    const Conditions &conditions, pong_detection *found, int count, int capacity);
+	int scan_five_points(const Area &area, double contrast, const BallLimits &limits, pong_detection *found,
+			     int count, int capacity);
+	bool in_region(const pong_detection &ball) const;
+	BallLimits limits_at(int v, const pong_window *window, const Conditions &conditions) const;
+
+	const pong_region &region_;
+	double contrast_;
+	int columns_, rows_; // of cells
+	std::vector<FivePoints> sizes_;
+	std::vector<Area> strips_;   // by row of cells: the columns of the region
+	std::vector<int32_t> lit_;   // by cell, with a border of one: how far outside of both, 0 if not lit
+	std::vector<int> lit_cells_; // places in lit_, in the order of scan
+	std::vector<int> stack_;
+	std::vector<uint32_t> now_, earlier_; // one row of cells
+	std::vector<int32_t> to_then_, to_before_;
+	Patch patch_;
+};
+
+DoubleDifference::DoubleDifference(const pong_region &region, const pong_settings &settings)
+	: region_(region), contrast_(settings.detect.contrast), columns_(region.width / cell_size),
+	  rows_(region.height / cell_size), sizes_(five_points_of(region)), patch_(region.width, region.height)
+{
+	const size_t cells = static_cast<size_t>(columns_ + 2) * static_cast<size_t>(rows_ + 2);
+	lit_.resize(cells);
+	lit_cells_.reserve(cells);
+	stack_.reserve(cells);
+	for (auto *row : {&now_, &earlier_})
+		row->resize(static_cast<size_t>(columns_));
+	for (auto *row : {&to_then_, &to_before_})
+		row->resize(static_cast<size_t>(columns_));
+	for (int row = 0; row < rows_; row++) {
+		Area strip = {columns_, 0, row, row + 1};
+		for (int v = row * cell_size; v < (row + 1) * cell_size; v++) {
+			const pong_region_row &pixels = region.rows[static_cast<size_t>(v)];
+			if (pixels.begin == pixels.end)
+				continue;
+			strip.u_begin = std::min(strip.u_begin, pixels.begin / cell_size);
+			strip.u_end = std::max(strip.u_end, std::min(columns_, pixels.end / cell_size + 1));
+		}
+		strips_.push_back(strip);
+	}
+}
+
+Area DoubleDifference::searched_cells(const pong_window *window) const
+{
+	const Area pixels = searched_area(region_.width, region_.height, window);
+	return intersect({0, columns_, 0, rows_},
+			 {pixels.u_begin / cell_size, (pixels.u_end + cell_size - 1) / cell_size,
+			  pixels.v_begin / cell_size, (pixels.v_end + cell_size - 1) / cell_size});
+}
+
+bool known(const pong_detection &ball, const pong_detection *found, int count)
+{
+	return std::any_of(found, found + count, [&](const pong_detection &other) {
+		return std::hypot(ball.u - other.u, ball.v - other.v) < std::max(ball.size, other.size) / 2;
+	});
+}
+
+const uint8_t *corner(const pong_image &image, int column, int row)
+{
+	return image.pixels + row * cell_size * image.stride + column * cell_size;
+}
+
+// Samples of a few strips, and what they say.
+Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, const Area &cells)
+{
+	CellSamples samples[2]; // the current picture against each of the earlier ones
+	const int strips = std::min(sampled_strips, cells.v_end - cells.v_begin);
+	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
+	for (int strip = 0; strip < strips; strip++) {
+		const int row = cells.v_begin + (2 * strip + 1) * (cells.v_end - cells.v_begin) / (2 * strips);
+		const auto sums = [&](const pong_image &image) {
+			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, nullptr, earlier_.data());
+			return earlier_.data();
+		};
+		const auto sample = [&](const uint32_t *in, int begin, uint32_t *out) {
+			for (int i = 0; i * every < columns; i++)
+				out[begin + i] = in[i * every];
+		};
+		const int begin = samples[0].count;
+		sample(sums(pictures.current), begin, samples[0].now);
+		std::copy_n(samples[0].now + begin, sampled_cells, samples[1].now + begin);
+		sample(sums(pictures.earlier[0]), begin, samples[0].then);
+		sample(sums(pictures.earlier[1]), begin, samples[1].then);
+		samples[0].count = samples[1].count = begin + (columns + every - 1) / every;
+	}
+	const Gains gains = {{measure_gain(samples[0]), measure_gain(samples[1])}};
+	return {gains, std::clamp(measure_noise(samples[0], gains.of[0]), noise_least, noise_most)};
+}
+
+// Light the cells of one strip that lie outside of both earlier pictures.
+void DoubleDifference::light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row,
+				   int begin, int count, const uint8_t *ahead[2])
+{
+	const auto sums = [&](const pong_image &image, const uint8_t *next, std::vector<uint32_t> &out) {
+		sum_cells(corner(image, begin, row), image.stride, count, next, out.data());
+	};
+	sums(pictures.current, ahead[0], now_);
+	sums(pictures.earlier[0], ahead[1], earlier_);
+	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[0], threshold, count, to_then_.data()))
+		return;
+	sums(pictures.earlier[1], nullptr, earlier_);
+	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[1], threshold, count, to_before_.data()))
+		return;
+	for (int i = 0; i < count; i++) {
+		const int32_t a = to_then_[static_cast<size_t>(i)], b = to_before_[static_cast<size_t>(i)];
+		const int32_t beyond = (a > 0) == (b > 0) ? std::min(std::abs(a), std::abs(b)) : 0;
+		if (beyond <= threshold)
+			continue;
+		const int place = (row + 1) * (columns_ + 2) + begin + i + 1;
+		lit_[static_cast<size_t>(place)] = beyond;
+		lit_cells_.push_back(place);
+	}
+}
+
+void DoubleDifference::light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells)
+{
+	for (const int place : lit_cells_)
+		lit_[static_cast<size_t>(place)] = 0;
+	lit_cells_.clear();
+	const double least = std::max(noise_factor * conditions.noise, contrast_part * contrast_);
+	const int32_t threshold = static_cast<int32_t>(cell_pixels * least);
+	for (int row = cells.v_begin; row < cells.v_end; row++) {
+		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
+		if (strip.empty())
+			continue;
+		const bool more = row + strips_ahead < cells.v_end;
+		const uint8_t *ahead[2] = {more ? corner(pictures.current, strip.u_begin, row + strips_ahead) : nullptr,
+					   more ? corner(pictures.earlier[0], strip.u_begin, row + strips_ahead)
+						: nullptr};
+		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin,
+			    ahead);
+	}
+}
+
+// Collect the lit cells that touch the first one, and take them out.
+Group DoubleDifference::take_group(int first)
+{
+	const int stride = columns_ + 2;
+	Group group = {{columns_, -1}, {rows_, -1}, 0, 0};
+	const auto take = [&](int place) {
+		const double weight = lit_[static_cast<size_t>(place)];
+		const int column = place % stride - 1, row = place / stride - 1;
+		lit_[static_cast<size_t>(place)] = 0;
+		group.columns[0] = std::min(group.columns[0], column);
+		group.columns[1] = std::max(group.columns[1], column);
+		group.rows[0] = std::min(group.rows[0], row);
+		group.rows[1] = std::max(group.rows[1], row);
+		group.weight += weight;
+		group.weight2 += weight * weight;
+		stack_.push_back(place);
+	};
+	take(first);
+	while (!stack_.empty()) {
+		const int place = stack_.back();
+		stack_.pop_back();
+		for (const int step : {-stride - 1, -stride, -stride + 1, -1, 1, stride - 1, stride, stride + 1})
+			if (lit_[static_cast<size_t>(place + step)])
+				take(place + step);
+	}
+	return group;
+}
+
+BallLimits DoubleDifference::limits_at(int v, const pong_window *window, const Conditions &conditions) const
+{
+	const pong_region_row &row = region_.rows[static_cast<size_t>(std::clamp(v, 0, region_.height - 1))];
+	return {window ? window->size_min : row.size_min, window ? window->size_max : row.size_max, contrast_,
+		close_noise * conditions.noise};
+}
+
+bool DoubleDifference::in_region(const pong_detection &ball) const
+{
+	const int v = static_cast<int>(std::lround(ball.v));
+	if (v < 0 || v >= region_.height)
+		return false;
+	const pong_region_row &row = region_.rows[static_cast<size_t>(v)];
+	return ball.u >= row.begin && ball.u < row.end;
+}
+
+// Look at a group close up: one ball, or a ball beside something else.
+int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
+			      const Conditions &conditions, pong_detection *found, int count, int capacity)
+{
+	const Area picture = {0, region_.width, 0, region_.height};
+	const auto grown = [&](int by) {
+		return intersect(picture, {group.columns[0] * cell_size - by, (group.columns[1] + 1) * cell_size + by,
+					   group.rows[0] * cell_size - by, (group.rows[1] + 1) * cell_size + by});
+	};
+	const Area area = grown(cell_size / 2);
+	const BallLimits limits = limits_at((area.v_begin + area.v_end) / 2, window, conditions);
+	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
+	if (extent < limits.size_min / 2)
+		return count;
+	patch_.fill(pictures, conditions.gains, grown(close_margin));
+	pong_detection ball;
+	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
+		return in_region(ball) ? insert_detection(ball, found, count, capacity) : count;
+	if (extent < larger * limits.size_min)
+		return count;
+	return scan_five_points(area, group.contrast(), limits, found, count, capacity);
+}
+
+// Scan for upper left boundary points in the patch, and try the sizes there. What they find is measured.
+int DoubleDifference::scan_five_points(const Area &area, double contrast, const BallLimits &limits,
+				       pong_detection *found, int count, int capacity)
+{
+	const int level = static_cast<int>(patch_one * lit_level(contrast, limits));
+	const auto lit = [&](int u, int v) { return patch_.at(u, v) > level; };
+	int tries = tries_most;
+	for (int v = area.v_begin; v < area.v_end; v++)
+		for (int u = area.u_begin; u < area.u_end; u++) {
+			if (!lit(u, v) || lit(u - 1, v - 1))
+				continue;
+			for (const FivePoints &points : sizes_between(sizes_, limits.size_min, limits.size_max)) {
+				if (!match(points, u, v, lit))
+					continue;
+				const int reach = static_cast<int>(0.6 * points.size) + 1;
+				const int cu = u + points.centre.u, cv = v + points.centre.v;
+				const Area box = intersect(patch_.area(),
+							   {cu - reach, cu + reach + 1, cv - reach, cv + reach + 1});
+				pong_detection ball;
+				if (tries-- == 0)
+					return count;
+				if (!measure_blob(patch_, box, contrast, limits, &ball) || !in_region(ball) ||
+				    known(ball, found, count))
+					continue;
+				count = insert_detection(ball, found, count, capacity);
+			}
+		}
+	return count;
+}
+
+int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
+			     int capacity)
+{
+	const Area cells = searched_cells(window);
+	if (cells.empty())
+		return 0;
+	const Conditions conditions = measure_conditions(pictures, cells);
+	light_cells(pictures, conditions, cells);
+	int count = 0;
+	for (const int place : lit_cells_)
+		if (lit_[static_cast<size_t>(place)])
+			count = look_at(take_group(place), pictures, window, conditions, found, count, capacity);
+	return count;
+}
+
+} // namespace
+
+std::unique_ptr<DetectMethod> make_double_difference(const pong_region &region, const pong_settings &settings)
+{
+	return std::make_unique<DoubleDifference>(region, settings);
+}
+
+} // namespace pong

@@ -1,0 +1,51 @@
+// A part of a picture close up: how far its pixels lie outside of what two earlier pictures showed there.
+#pragma once
+
+#include <vector>
+
+#include "cells.hpp"
+#include "detector.hpp"
+
+namespace pong
+{
+
+// By how much a lamp that flickers made the current picture brighter than each earlier one, in 1 / gain_one.
+struct Gains {
+	int32_t of[2];
+};
+
+class Patch
+{
+public:
+	Patch(int width, int height);
+
+	// Look at the area, which must be inside of the picture.
+	void fill(const pong_pictures &pictures, const Gains &gains, const Area &area);
+
+	const Area &area() const
+	{
+		return area_;
+	}
+
+	// The mean over 3 x 3 pixels of how far they lie outside, in 1 / patch_one grey levels; 0 out of the area.
+	int at(int u, int v) const
+	{
+		return area_.contains(u, v) ? *pixel(u, v) : 0;
+	}
+
+	// The same, from the pixel (u, v) of the area onwards.
+	const int16_t *pixel(int u, int v) const
+	{
+		return &level_[static_cast<size_t>(v - area_.v_begin) * stride_ +
+			       static_cast<size_t>(u - area_.u_begin)];
+	}
+
+private:
+	Area area_ = {0, 0, 0, 0};
+	size_t stride_;
+	std::vector<int16_t> beyond_, across_, level_; // by pixel; summed over 3 of a row; and over 3 x 3
+};
+
+const int patch_one = 9; // a grey level
+
+} // namespace pong

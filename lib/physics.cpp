@@ -1,0 +1,184 @@
+#include "physics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pong
+{
+
+namespace
+{
+
+const double standard_gravity = 9.80665; // m/s^2
+const double step_error = 1e-6;          // m
+const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
+const double least_spin = 1e-6;          // rad/s; the same
+const double rolling_part = 0.4;         // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
+const double spin_per_push = 1.5;        // m r^2 / I, with I = 2/3 m r^2
+
+Matrix3 cross_matrix(const Vector3 &d)
+{
+	Matrix3 matrix;
+	matrix << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+	return matrix;
+}
+
+} // namespace
+
+Motion motion_at_anchor(const Parameters &parameters)
+{
+	Motion motion = {0,
+			 parameters.segment<3>(PONG_STATE_POSITION),
+			 parameters.segment<3>(PONG_STATE_VELOCITY),
+			 parameters.segment<3>(PONG_STATE_SPIN),
+			 Rates::Zero(),
+			 Rates::Zero(),
+			 Rates::Zero()};
+	motion.position_rates.middleCols<3>(PONG_STATE_POSITION).setIdentity();
+	motion.velocity_rates.middleCols<3>(PONG_STATE_VELOCITY).setIdentity();
+	motion.spin_rates.middleCols<3>(PONG_STATE_SPIN).setIdentity();
+	return motion;
+}
+
+Physics::Physics(const pong_rig &rig) : radius_(rig.ball.diameter / 2)
+{
+	const pong_ball_spec &ball = rig.ball;
+	const double section = M_PI * radius_ * radius_;
+	const double volume = 4.0 / 3 * M_PI * radius_ * radius_ * radius_;
+	drag_factor_ = ball.air_density * section / (2 * ball.mass); // of eq. 18: k = drag_factor C
+	magnus_factor_ = 1 / ball.mass;
+	drag_by_spin_ = drag_factor_ * ball.drag_by_spin * radius_;
+	saturation_ = ball.magnus_saturation * radius_;
+	gravity_ = standard_gravity * (1 - ball.air_density * volume / ball.mass); // eq. 17, 19
+}
+
+// a = -k |v| v + m q w x v - [0 g' 0]', where q = |v| / (|v| + s r |w|): a ball that spins faster than it flies drags
+// less and less of the air along.
+Vector3 Physics::acceleration(const Parameters &parameters, const Motion &motion) const
+{
+	const Vector3 &v = motion.velocity;
+	const double speed = v.norm() + least_speed;
+	const double q = speed / (speed + saturation_ * motion.spin.norm());
+	const double k = drag_factor_ * parameters[PONG_STATE_DRAG] * speed + drag_by_spin_ * motion.spin.norm();
+	return -k * v +
+	       magnus_factor_ * parameters[PONG_STATE_MAGNUS] * q * motion.spin.cross(v) - Vector3(0, gravity_, 0);
+}
+
+// With a rate l at which velocity turns and fades, the next term of the series that a step drops is
+// |v| l^4 h^5 / 120.
+double Physics::step_length(const Parameters &parameters, const Motion &motion) const
+{
+	const double speed = motion.velocity.norm();
+	const double rate = drag_factor_ * std::abs(parameters[PONG_STATE_DRAG]) * speed +
+			    magnus_factor_ * std::abs(parameters[PONG_STATE_MAGNUS]) * motion.spin.norm() + 1;
+	return std::pow(120 * step_error / ((speed + 1) * std::pow(rate, 4)), 0.2);
+}
+
+void Physics::step(const Parameters &parameters, double duration, Motion &motion) const
+{
+	const double part[4] = {0, 0.5 * duration, 0.5 * duration, duration};
+	const double weight[4] = {duration / 6, duration / 3, duration / 3, duration / 6};
+	const double k = drag_factor_ * parameters[PONG_STATE_DRAG];
+	const double m = magnus_factor_ * parameters[PONG_STATE_MAGNUS];
+	const double spin = motion.spin.norm() + least_spin, surface = saturation_ * spin;
+	const Rates spin_part = motion.spin_rates;
+	Vector3 a = Vector3::Zero(), position = motion.position, velocity = motion.velocity;
+	Rates a_rates = Rates::Zero(), position_rates = motion.position_rates, velocity_rates = motion.velocity_rates;
+	for (int stage = 0; stage < 4; stage++) {
+		const Vector3 v = motion.velocity + part[stage] * a;
+		const Rates v_rates = motion.velocity_rates + part[stage] * a_rates;
+		const double speed = v.norm() + least_speed, q = speed / (speed + surface);
+		const Vector3 turn = q * motion.spin.cross(v);
+		const double drag = k * speed + drag_by_spin_ * spin;
+		a = -drag * v + m * turn - Vector3(0, gravity_, 0);
+		const Matrix3 by_velocity =
+			m * q * cross_matrix(motion.spin) - drag * Matrix3::Identity() +
+			(m * surface / (speed * (speed + surface)) * turn - k * v) * v.transpose() / speed;
+		const Matrix3 by_spin = -m * q * cross_matrix(v) -
+					(m * saturation_ / (speed + surface) * turn + drag_by_spin_ * v) *
+						motion.spin.transpose() / spin;
+		a_rates.noalias() = by_velocity.lazyProduct(v_rates);
+		a_rates += by_spin.lazyProduct(spin_part);
+		a_rates.col(PONG_STATE_DRAG) -= drag_factor_ * speed * v;
+		a_rates.col(PONG_STATE_MAGNUS) += magnus_factor_ * turn;
+		position += weight[stage] * v;
+		velocity += weight[stage] * a;
+		position_rates += weight[stage] * v_rates;
+		velocity_rates += weight[stage] * a_rates;
+	}
+	motion.time += duration;
+	motion.position = position;
+	motion.velocity = velocity;
+	motion.position_rates = position_rates;
+	motion.velocity_rates = velocity_rates;
+}
+
+// The change of velocity along the table, and how it moves with the velocity and spin before and the coefficients.
+struct Physics::Impulse {
+	Vector3 value;
+	Rates rates;
+};
+
+// The ball's lowest point slips along the table with s = v_t + w x (0, -r, 0). Friction pushes against it with
+// mu (1 + e) |v_y|, but no longer than until the slip is gone, where the ball rolls, or is turned over by the grip of
+// an elastic ball: dv = -min(mu (1 + e) |v_y| / |s|, 2/5 (1 + grip)) s (Nakashima et al. 2010; Cross 2002).
+Physics::Impulse Physics::impulse(const Parameters &parameters, const Motion &motion) const
+{
+	const double e = parameters[PONG_STATE_RESTITUTION], mu = parameters[PONG_STATE_FRICTION];
+	const double grip = parameters[PONG_STATE_GRIP];
+	const double fall = -motion.velocity.y();
+	Vector3 slip(motion.velocity.x() + radius_ * motion.spin.z(), 0,
+		     motion.velocity.z() - radius_ * motion.spin.x());
+	Rates slip_rates = motion.velocity_rates;
+	slip_rates.row(0) += radius_ * motion.spin_rates.row(2);
+	slip_rates.row(1).setZero();
+	slip_rates.row(2) -= radius_ * motion.spin_rates.row(0);
+
+	const double speed = std::max(slip.norm(), least_speed);
+	const double sliding = mu * (1 + e) * fall / speed, rolling = rolling_part * (1 + grip);
+	const double part = std::min(sliding, rolling);
+	Impulse push = {-part * slip, -part * slip_rates};
+	if (rolling <= sliding) {
+		push.rates.col(PONG_STATE_GRIP) -= rolling_part * slip;
+	} else {
+		const Vector3 along = slip / speed;
+		push.rates += part * along * (along.transpose() * slip_rates);
+		push.rates += mu * (1 + e) * along * motion.velocity_rates.row(1);
+		push.rates.col(PONG_STATE_RESTITUTION) -= mu * fall * along;
+		push.rates.col(PONG_STATE_FRICTION) -= (1 + e) * fall * along;
+	}
+	push.value.x() += parameters[PONG_STATE_KICK_X];
+	push.value.z() += parameters[PONG_STATE_KICK_Z];
+	push.rates(0, PONG_STATE_KICK_X) += 1;
+	push.rates(2, PONG_STATE_KICK_Z) += 1;
+	return push;
+}
+
+// dw = (r x m dv) / I
+void Physics::push_along_table(const Parameters &parameters, Motion &motion) const
+{
+	const Impulse push = impulse(parameters, motion);
+	const double lever = spin_per_push / radius_;
+	const double e = parameters[PONG_STATE_RESTITUTION];
+	motion.velocity_rates.row(1) *= -e;
+	motion.velocity_rates(1, PONG_STATE_RESTITUTION) -= motion.velocity.y();
+	motion.velocity.y() *= -e;
+	motion.velocity += push.value;
+	motion.velocity_rates += push.rates;
+	motion.spin += lever * Vector3(-push.value.z(), 0, push.value.x());
+	motion.spin_rates.row(0) -= lever * push.rates.row(2);
+	motion.spin_rates.row(2) += lever * push.rates.row(0);
+}
+
+void Physics::bounce(const Parameters &parameters, Motion &motion) const
+{
+	// y(t) = r defines the moment of contact t, so dt = -dy / v_y. To that moment, through the contact, and back.
+	const Eigen::Matrix<double, 1, parameter_count> moment = -motion.position_rates.row(1) / motion.velocity.y();
+	motion.position_rates += motion.velocity * moment;
+	motion.velocity_rates += acceleration(parameters, motion) * moment;
+	push_along_table(parameters, motion);
+	motion.position_rates -= motion.velocity * moment;
+	motion.velocity_rates -= acceleration(parameters, motion) * moment;
+}
+
+} // namespace pong

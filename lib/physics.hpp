@@ -1,0 +1,62 @@
+// The ball's physics with spin, and how every result moves with what is not known exactly.
+//
+// Drag, Magnus force, buoyancy and gravity in the air; at the table a hollow sphere under friction that slides or
+// rolls. docs/predict.md derives what stands here.
+#pragma once
+
+#include "camera.hpp"
+#include "pongeye.h"
+
+namespace pong
+{
+
+// What a flight depends on, in the order of PONG_STATE_...: the ball at the anchor, the flight's start or a later
+// moment, then the coefficients.
+const int parameter_count = PONG_STATE_SIZE;
+using Parameters = Eigen::Matrix<double, parameter_count, 1>;
+using ParameterMatrix = Eigen::Matrix<double, parameter_count, parameter_count>;
+
+// How a vector moves with the parameters. Row by row: the compiler makes long loops of it.
+using Rates = Eigen::Matrix<double, 3, parameter_count, Eigen::RowMajor>;
+
+// A ball on its way and how it moves with the parameters; time runs in seconds from the anchor.
+struct Motion {
+	double time;
+	Vector3 position, velocity, spin;
+	Rates position_rates, velocity_rates, spin_rates;
+};
+
+// A ball at the anchor.
+Motion motion_at_anchor(const Parameters &parameters);
+
+class Physics
+{
+public:
+	explicit Physics(const pong_rig &rig);
+
+	Vector3 acceleration(const Parameters &parameters, const Motion &motion) const;
+
+	// The longest step that keeps the error of one Runge-Kutta step below about a micrometre.
+	double step_length(const Parameters &parameters, const Motion &motion) const;
+
+	// One Runge-Kutta step of fourth order, of the motion and its rates together.
+	void step(const Parameters &parameters, double duration, Motion &motion) const;
+
+	// A ball that touches the table, from the moment before to the moment after. The moment itself depends on the
+	// parameters too: a ball that comes later bounces later.
+	void bounce(const Parameters &parameters, Motion &motion) const;
+
+	double radius() const
+	{
+		return radius_;
+	}
+
+private:
+	struct Impulse;
+	Impulse impulse(const Parameters &parameters, const Motion &motion) const;
+	void push_along_table(const Parameters &parameters, Motion &motion) const;
+
+	double radius_, drag_factor_, drag_by_spin_, magnus_factor_, saturation_, gravity_;
+};
+
+} // namespace pong
