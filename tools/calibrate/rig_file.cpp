@@ -9,12 +9,15 @@
 namespace calibrate
 {
 
+// A rig.toml that names no ball has the usual one.
 pong_rig make_rig(const pong_camera camera[2], bool table)
 {
-	pong_rig rig = {};
-	rig.ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-	if (table)
-		rig.table = {1, 2.74, 1.525};
+	const std::string any_camera = "size = [640, 480]\nP = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\n";
+	const std::string text = (table ? "[table]\n" : "") + ("[left]\n" + any_camera + "[right]\n" + any_camera);
+	pong_rig rig;
+	pong_error error;
+	if (pong_rig_parse(text.c_str(), "the usual rig", &rig, &error) < 0)
+		throw pong::Failure(error.text);
 	rig.camera[PONG_LEFT] = camera[PONG_LEFT];
 	rig.camera[PONG_RIGHT] = camera[PONG_RIGHT];
 	return rig;
