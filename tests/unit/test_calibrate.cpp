@@ -269,7 +269,7 @@ Knock knock()
 	Knock result = {};
 	for (pong_rig *each : {&result.truth, &result.knocked}) {
 		each->ball.diameter = 0.040;
-		each->table = {1, 2.74, 1.525};
+		each->table.present = 1;
 		for (int side = 0; side < 2; side++)
 			each->camera[side] = as_camera(rig.camera[side]);
 	}
