@@ -31,16 +31,17 @@ double seconds(int64_t from, int64_t to)
 Parameters usual_parameters(const pong_ball_spec &ball)
 {
 	Parameters usual;
-	usual << 0, 0, 0, usual_velocity, 0, 0, 0, ball.drag, ball.magnus, ball.restitution, ball.friction, ball.grip, 0,
-		0;
+	usual << 0, 0, 0, usual_velocity, 0, 0, 0, ball.drag, ball.magnus, ball.restitution, ball.friction, ball.grip,
+		0, 0;
 	return usual;
 }
 
 Parameters usual_sigmas(const pong_ball_spec &ball)
 {
 	Parameters sigmas;
-	sigmas << Vector3::Constant(position_sigma), velocity_sigma, Vector3::Constant(ball.spin_sigma), ball.drag_sigma,
-		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, ball.kick, ball.kick;
+	sigmas << Vector3::Constant(position_sigma), velocity_sigma, Vector3::Constant(ball.spin_sigma),
+		ball.drag_sigma, ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma,
+		ball.kick, ball.kick;
 	return sigmas;
 }
 

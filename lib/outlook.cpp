@@ -11,8 +11,8 @@ namespace pong
 namespace
 {
 
-const double net_overhang = 0.1525;   // the net reaches this far beyond the side lines, m
-const double below_surface = -0.002;  // a ball's centre that low over the table is an impossibility, m
+const double net_overhang = 0.1525;  // the net reaches this far beyond the side lines, m
+const double below_surface = -0.002; // a ball's centre that low over the table is an impossibility, m
 
 using StateMatrix = Eigen::Matrix<double, parameter_count, parameter_count, Eigen::RowMajor>;
 

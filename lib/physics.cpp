@@ -12,8 +12,8 @@ namespace
 const double standard_gravity = 9.80665; // m/s^2
 const double step_error = 1e-6;          // m
 const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
-const double rolling_part = 0.4;         // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
-const double spin_per_push = 1.5;        // m r^2 / I, with I = 2/3 m r^2
+const double rolling_part = 0.4;  // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
+const double spin_per_push = 1.5; // m r^2 / I, with I = 2/3 m r^2
 
 Matrix3 cross_matrix(const Vector3 &d)
 {

@@ -95,8 +95,8 @@ void read_settings(const Document &document, pong_settings &settings)
 		settings.track.state =
 			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves", "flight"}));
 	if (document.has("predict", "method"))
-		settings.predict.method = static_cast<pong_predict_method>(
-			read_word(document, "predict", "method", {"euler", "spin"}));
+		settings.predict.method =
+			static_cast<pong_predict_method>(read_word(document, "predict", "method", {"euler", "spin"}));
 }
 
 } // namespace

@@ -110,8 +110,7 @@ bool within_covariance(const pong_state &expected, const pong_point &point)
 {
 	using Covariance = Eigen::Matrix<double, PONG_STATE_SIZE, PONG_STATE_SIZE, Eigen::RowMajor>;
 	const Eigen::Map<const Covariance> covariance(&expected.covariance[0][0]);
-	const Matrix3 spread = covariance.topLeftCorner<3, 3>() +
-			       Eigen::Map<const Matrix3>(&point.covariance[0][0]) +
+	const Matrix3 spread = covariance.topLeftCorner<3, 3>() + Eigen::Map<const Matrix3>(&point.covariance[0][0]) +
 			       expected_sigma * expected_sigma * Matrix3::Identity();
 	const Vector3 distance = vector_of(point.position) - vector_of(expected.position);
 	return distance.dot(spread.inverse() * distance) <= surprise;
@@ -168,8 +167,7 @@ pong_track_event push_other(pong_track &track, const pong_point &point)
 
 bool usable(const pong_point &point)
 {
-	return vector_of(point.position).allFinite() &&
-	       Eigen::Map<const Matrix3>(&point.covariance[0][0]).allFinite();
+	return vector_of(point.position).allFinite() && Eigen::Map<const Matrix3>(&point.covariance[0][0]).allFinite();
 }
 
 } // namespace
@@ -180,7 +178,8 @@ pong_track *pong_track_new(const pong_rig *rig, const pong_settings *settings, p
 {
 	return guarded_new(error, [&] {
 		const pong_state_method method = settings->track.state;
-		pong_track *track = new pong_track{*rig, *settings, {Run(*rig, method), Run(*rig, method)}, nullptr, nullptr, 0, 0};
+		pong_track *track =
+			new pong_track{*rig, *settings, {Run(*rig, method), Run(*rig, method)}, nullptr, nullptr, 0, 0};
 		track->flight = &track->run[0];
 		track->other = &track->run[1];
 		return track;
