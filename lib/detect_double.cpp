@@ -30,7 +30,6 @@ const int sampled_strips = 4;   // rows of cells that tell noise and gain
 const int sampled_cells = 64;   // of each
 const int close_margin = 6;     // a group is looked at with so many pixels around, px
 const double close_noise = 1.5; // the noise of a patch's 3 x 3 mean, over that of a cell's
-const int strips_ahead = 4;     // rows of cells that are fetched before they are read
 const int tries_most = 64;      // measurements of one large group
 const double larger = 1.5;      // groups this much larger than the largest ball are more than a ball
 
@@ -64,7 +63,7 @@ private:
 	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells);
 	void light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells);
 	void light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row, int begin,
-			 int count, const uint8_t *ahead[2]);
+			 int count);
 	Group take_group(int first);
 	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 		    const Conditions &conditions, pong_detection *found, int count, int capacity);
@@ -140,7 +139,7 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 	for (int strip = 0; strip < strips; strip++) {
 		const int row = cells.v_begin + (2 * strip + 1) * (cells.v_end - cells.v_begin) / (2 * strips);
 		const auto sums = [&](const pong_image &image) {
-			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, nullptr, earlier_.data());
+			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, earlier_.data());
 			return earlier_.data();
 		};
 		const auto sample = [&](const uint32_t *in, int begin, uint32_t *out) {
@@ -160,16 +159,16 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 
 // Light the cells of one strip that lie outside of both earlier pictures.
 void DoubleDifference::light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row,
-				   int begin, int count, const uint8_t *ahead[2])
+				   int begin, int count)
 {
-	const auto sums = [&](const pong_image &image, const uint8_t *next, std::vector<uint32_t> &out) {
-		sum_cells(corner(image, begin, row), image.stride, count, next, out.data());
+	const auto sums = [&](const pong_image &image, std::vector<uint32_t> &out) {
+		sum_cells(corner(image, begin, row), image.stride, count, out.data());
 	};
-	sums(pictures.current, ahead[0], now_);
-	sums(pictures.earlier[0], ahead[1], earlier_);
+	sums(pictures.current, now_);
+	sums(pictures.earlier[0], earlier_);
 	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[0], threshold, count, to_then_.data()))
 		return;
-	sums(pictures.earlier[1], nullptr, earlier_);
+	sums(pictures.earlier[1], earlier_);
 	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[1], threshold, count, to_before_.data()))
 		return;
 	for (int i = 0; i < count; i++) {
@@ -194,12 +193,7 @@ void DoubleDifference::light_cells(const pong_pictures &pictures, const Conditio
 		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
 		if (strip.empty())
 			continue;
-		const bool more = row + strips_ahead < cells.v_end;
-		const uint8_t *ahead[2] = {more ? corner(pictures.current, strip.u_begin, row + strips_ahead) : nullptr,
-					   more ? corner(pictures.earlier[0], strip.u_begin, row + strips_ahead)
-						: nullptr};
-		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin,
-			    ahead);
+		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin);
 	}
 }
 
