@@ -18,6 +18,8 @@ bool locate(const LocateTask &task, pong_locate_method method, pong_centre *cent
 		return locate_centroid(task, centre);
 	case PONG_LOCATE_EDGES:
 		return locate_edges(task, centre);
+	case PONG_LOCATE_PHOTOMETRIC:
+		return locate_photometric(task, centre);
 	}
 	return false;
 }

@@ -18,6 +18,7 @@ struct LocateTask {
 bool locate_gaussian(const LocateTask &task, pong_centre *centre);
 bool locate_centroid(const LocateTask &task, pong_centre *centre);
 bool locate_edges(const LocateTask &task, pong_centre *centre);
+bool locate_photometric(const LocateTask &task, pong_centre *centre);
 
 inline Matrix2 covariance_of(const pong_centre &centre)
 {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "camera.hpp"
-#include "pongeye.h"
+#include "locate.hpp"
 
 namespace pong
 {
@@ -95,10 +95,30 @@ Matrix3 point_covariance(const pong_camera camera[2], const pong_centre centre[2
 	Matrix3 information = Matrix3::Zero();
 	for (int side = 0; side < 2; side++) {
 		const auto jacobian = projection_jacobian(matrix_of(camera[side].P), position);
-		const Matrix2 covariance = Eigen::Map<const Matrix2>(&centre[side].covariance[0][0]);
-		information += jacobian.transpose() * covariance.inverse() * jacobian;
+		information += jacobian.transpose() * covariance_of(centre[side]).inverse() * jacobian;
 	}
 	return information.inverse();
+}
+
+// The point that makes both centres most likely, from the linear one on: Gauss-Newton on what the pixels miss, in units
+// of their covariances.
+Vector3 most_likely(const pong_camera camera[2], const Pair &pair, const pong_centre centre[2], Vector3 position)
+{
+	const int rounds = 2; // the linear point is close
+	for (int round = 0; round < rounds; round++) {
+		Matrix3 normal = Matrix3::Zero();
+		Vector3 right = Vector3::Zero();
+		for (int side = 0; side < 2; side++) {
+			const Matrix34 P = matrix_of(camera[side].P);
+			const auto jacobian = projection_jacobian(P, position);
+			const Vector2 missed = pair.pixel[side] - (P * position.homogeneous()).hnormalized();
+			const Matrix2 weight = covariance_of(centre[side]).inverse();
+			normal += jacobian.transpose() * weight * jacobian;
+			right += jacobian.transpose() * weight * missed;
+		}
+		position += normal.ldlt().solve(right);
+	}
+	return position;
 }
 
 bool size_agrees(const pong_camera &camera, const Vector3 &position, double diameter, const pong_centre &centre,
@@ -148,6 +168,8 @@ int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_ce
 		if (!size_agrees(rig->camera[side], position, rig->ball.diameter, centre[side],
 				 settings->reconstruct.size))
 			return PONG_NONE;
+	if (settings->reconstruct.method == PONG_RECONSTRUCT_LIKELY)
+		position = most_likely(rig->camera, pair, centre, position);
 	store(position, point->position);
 	store(point_covariance(rig->camera, centre, position), point->covariance);
 	return PONG_FOUND;

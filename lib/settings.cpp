@@ -65,7 +65,7 @@ void read_settings(const Document &document, pong_settings &settings)
 		{"region", {"ceiling", "margin", "behind", "distance"}},
 		{"detect", {"method", "gap", "contrast"}},
 		{"locate", {"method", "sigma", "exposure"}},
-		{"reconstruct", {"epipolar", "epipolar_size", "size"}},
+		{"reconstruct", {"method", "epipolar", "epipolar_size", "size"}},
 		{"track", {"state", "gate", "gate_rate", "lost", "speed", "noise"}},
 		{"predict", {"method", "step", "horizon", "path_step"}},
 		{"window", {"margin", "diameters"}},
@@ -88,7 +88,10 @@ void read_settings(const Document &document, pong_settings &settings)
 		settings.detect.gap = static_cast<int>(document.number("detect", "gap", 1, PONG_GAP_MAX));
 	if (document.has("locate", "method"))
 		settings.locate.method = static_cast<pong_locate_method>(
-			read_word(document, "locate", "method", {"gaussian", "centroid", "edges"}));
+			read_word(document, "locate", "method", {"gaussian", "centroid", "edges", "photometric"}));
+	if (document.has("reconstruct", "method"))
+		settings.reconstruct.method = static_cast<pong_reconstruct_method>(
+			read_word(document, "reconstruct", "method", {"linear", "likely"}));
 	if (document.has("track", "state"))
 		settings.track.state =
 			static_cast<pong_state_method>(read_word(document, "track", "state", {"two-halves", "flight"}));
@@ -112,8 +115,9 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;
 	settings->detect.gap = 8;
 	settings->detect.contrast = 8;
-	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_EDGES;
+	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_PHOTOMETRIC;
 	settings->locate.sigma = 0.3;
+	settings->reconstruct.method = profile == PONG_PAPER ? PONG_RECONSTRUCT_LINEAR : PONG_RECONSTRUCT_LIKELY;
 	settings->reconstruct.epipolar = 1.5;
 	settings->reconstruct.epipolar_size = 0.1;
 	settings->reconstruct.size = 0.35;

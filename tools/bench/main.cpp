@@ -13,9 +13,12 @@ const struct {
 	const char *name, *summary;
 	int (*run)(int argc, char **argv);
 } commands[] = {
+	{"calibration", "compare calibrations: the paper's Fig. 9, or on pictures", bench::calibration},
 	{"score", "score a tracker's output against a simulator's truth", bench::score},
 	{"draw", "draw one flight, as the camera saw it and from the side", bench::draw},
 	{"prediction", "predict simulated launches, beside the paper's way and the bound", bench::prediction},
+	{"accuracy", "locate rendered balls by every method, ours and OpenCV's", bench::accuracy},
+	{"speed", "time every stage, beside OpenCV's way", bench::speed},
 };
 
 void print_help()

@@ -1,0 +1,237 @@
+// How long the eye takes, beside OpenCV's way and beside what merely reading the pixels takes: one thread, on a ring of
+// frames that no cache holds.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "program.hpp"
+#include "rivals.hpp"
+#include "studio.hpp"
+
+namespace
+{
+
+using namespace bench;
+
+// A ball flies through the ring: shot after shot, each with its own copy of every picture.
+struct Ring {
+	std::vector<Shot> shots;
+	std::vector<Eigen::Vector3d> places;
+	Eigen::Vector3d velocity = {0.3, -0.5, -8};
+
+	Ring(Studio &studio, int length)
+	{
+		for (int i = 0; i < length; i++) {
+			const double part = static_cast<double>(i) / length;
+			const Eigen::Vector3d place(0.1 - 0.2 * part, 0.30, 2.3 - 1.2 * part);
+			Shot shot;
+			if (studio.take(place, velocity, &shot)) {
+				shots.push_back(shot);
+				places.push_back(place);
+			}
+		}
+	}
+};
+
+// Times of one thing, us.
+class Stopwatch
+{
+public:
+	void time(const std::function<void()> &what)
+	{
+		const auto begin = std::chrono::steady_clock::now();
+		what();
+		times_.push_back(
+			std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+	}
+
+	void print(const char *name)
+	{
+		std::sort(times_.begin(), times_.end());
+		printf("%-34s %8.1f %8.1f\n", name, times_[times_.size() / 2], times_[times_.size() * 99 / 100]);
+	}
+
+private:
+	std::vector<double> times_;
+};
+
+// Reads every pixel, eight at a time: what is left then is the memory's time.
+uint64_t read_pixels(const std::vector<uint8_t> &pixels)
+{
+	uint64_t sum = 0, word;
+	for (size_t i = 0; i + sizeof word <= pixels.size(); i += sizeof word) {
+		memcpy(&word, &pixels[i], sizeof word);
+		sum ^= word;
+	}
+	return sum;
+}
+
+struct Eyes {
+	pong_settings settings;
+	pong_region *region[2];
+	pong_detector *detector[2];
+
+	explicit Eyes(const pong_rig &rig)
+	{
+		pong_settings_defaults(PONG_BEST, &settings);
+		for (int side = 0; side < 2; side++) {
+			region[side] = pong_region_new(&rig, static_cast<pong_side>(side), &settings, nullptr);
+			detector[side] = pong_detector_new(region[side], &settings, nullptr);
+		}
+	}
+	Eyes(const Eyes &) = delete;
+
+	~Eyes()
+	{
+		for (int side = 0; side < 2; side++) {
+			pong_detector_free(detector[side]);
+			pong_region_free(region[side]);
+		}
+	}
+};
+
+class Race
+{
+public:
+	Race(Studio &studio, int length) : studio_(studio), ring_(studio, length), eyes_(studio.rig())
+	{
+	}
+
+	size_t length() const
+	{
+		return ring_.shots.size();
+	}
+
+	void read(size_t i, size_t pictures)
+	{
+		for (const auto &side : ring_.shots[i].pixels)
+			for (size_t k = 0; k < pictures; k++)
+				sink_ = sink_ + read_pixels(side[k]);
+	}
+
+	// Whole pictures, or windows of what the eye would make of a prediction.
+	void detect(size_t i, bool windowed)
+	{
+		for (int side = 0; side < 2; side++) {
+			const pong_pictures pictures = ring_.shots[i].pictures(static_cast<pong_side>(side));
+			pong_window window;
+			pong_window_around(&studio_.rig(), static_cast<pong_side>(side), ring_.places[i].data(),
+					   &eyes_.settings, &window);
+			found_[side] = pong_detect(eyes_.detector[side], &pictures, windowed ? &window : nullptr,
+						   detections_[side], capacity);
+		}
+	}
+
+	// Whether the ball was found by the last detect, in both pictures.
+	bool found(size_t i) const
+	{
+		bool both = true;
+		for (int side = 0; side < 2; side++) {
+			bool one = false;
+			for (int k = 0; k < found_[side]; k++)
+				one |= std::hypot(detections_[side][k].u - ring_.shots[i].uv[side][0],
+						  detections_[side][k].v - ring_.shots[i].uv[side][1]) < 4;
+			both &= one;
+		}
+		return both;
+	}
+
+	void locate(size_t i, pong_locate_method method)
+	{
+		eyes_.settings.locate.method = method;
+		pong_centre centre[2];
+		pong_point point;
+		double streak[2];
+		for (int side = 0; side < 2; side++) {
+			const pong_pictures pictures = ring_.shots[i].pictures(static_cast<pong_side>(side));
+			const pong_camera &camera = studio_.rig().camera[side];
+			pong_streak(&camera, ring_.places[i].data(), ring_.velocity.data(), 0.002, streak);
+			if (!found_[side] || !pong_locate(&camera, &pictures, &detections_[side][0], streak,
+							  &eyes_.settings, &centre[side]))
+				return;
+		}
+		sink_ = sink_ + static_cast<uint64_t>(pong_reconstruct(&studio_.rig(), &centre[0], &centre[1],
+								       &eyes_.settings, &point));
+	}
+
+	void opencv(size_t i, bool windowed)
+	{
+		double uv[2][2], position[3];
+		for (int side = 0; side < 2; side++) {
+			const Shot &shot = ring_.shots[i];
+			const int half = 48;
+			const cv::Rect picture(0, 0, shot.width, shot.height);
+			const cv::Rect window(static_cast<int>(shot.uv[side][0]) - half,
+					      static_cast<int>(shot.uv[side][1]) - half, 2 * half, 2 * half);
+			if (!find_by_contour(shot.pictures(static_cast<pong_side>(side)),
+					     windowed ? window & picture : picture, Rival::enclosing_circle, uv[side]))
+				return;
+		}
+		triangulate_by_opencv(studio_.rig(), uv[0], uv[1], position);
+		sink_ = sink_ + static_cast<uint64_t>(position[2] > 0);
+	}
+
+private:
+	static const int capacity = 16;
+	Studio &studio_;
+	Ring ring_;
+	Eyes eyes_;
+	pong_detection detections_[2][capacity];
+	int found_[2] = {0, 0};
+	volatile uint64_t sink_ = 0; // so that nothing is left out for being unused
+};
+
+void run_race(Race &race, int rounds)
+{
+	Stopwatch read, whole, window, edges, photometric, rival, rival_window;
+	size_t pairs = 0, whole_found = 0, window_found = 0;
+	for (int round = 0; round < rounds && !pong::stop_requested(); round++)
+		for (size_t i = 0; i < race.length(); i++, pairs++) {
+			// What is timed first finds the pictures out of the cache; far apart, so do the others.
+			const size_t n = race.length(), a = i, b = (i + n / 5) % n, c = (i + 2 * n / 5) % n,
+				     d = (i + 3 * n / 5) % n, e = (i + 4 * n / 5) % n;
+			read.time([&] { race.read(a, 2); });
+			rival.time([&] { race.opencv(b, false); });
+			rival_window.time([&] { race.opencv(c, true); });
+			whole.time([&] { race.detect(d, false); });
+			whole_found += race.found(d);
+			window.time([&] { race.detect(e, true); });
+			window_found += race.found(e);
+			edges.time([&] { race.locate(e, PONG_LOCATE_EDGES); });
+			photometric.time([&] { race.locate(e, PONG_LOCATE_PHOTOMETRIC); });
+		}
+	printf("# what median_us p99_us\n");
+	read.print("read_two_frames_of_a_pair");
+	whole.print("detect_whole_pair");
+	rival.print("opencv_whole_pair");
+	window.print("detect_windows_pair");
+	rival_window.print("opencv_windows_pair");
+	edges.print("locate_edges_and_point_pair");
+	photometric.print("locate_photometric_and_point_pair");
+	pong::say(pong::format("the ball was found in %zu and, by windows, %zu of %zu pairs", whole_found, window_found,
+			       pairs));
+}
+
+} // namespace
+
+int bench::speed(int argc, char **argv)
+{
+	int length, rounds;
+	pong::Options options("pongeye-bench speed",
+			      "Time detection and location, one thread, beside OpenCV's way and reading the pixels.",
+			      "  $ pongeye-bench speed\n");
+	options.integer("--pairs", "60", "stereo pairs in the ring, each of six pictures", &length, 5, 1000);
+	options.integer("--rounds", "10", "rounds through the ring", &rounds, 1, 100000);
+	if (!options.parse(argc, argv))
+		return 0;
+	cv::setNumThreads(1);
+	sim::Scene scene;
+	Studio studio(scene, 1);
+	Race race(studio, length);
+	run_race(race, rounds);
+	return 0;
+}
