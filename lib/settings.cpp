@@ -126,7 +126,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->track.gate_rate = 2;
 	settings->track.lost = profile == PONG_PAPER ? 0.1 : 0.6;
 	settings->track.speed = 40;
-	settings->track.noise = 0.0025;
+	settings->track.noise = 0.0022;
 	settings->predict.method = profile == PONG_PAPER ? PONG_PREDICT_EULER : PONG_PREDICT_SPIN;
 	settings->predict.step = 0.001;
 	settings->predict.horizon = 1.5;

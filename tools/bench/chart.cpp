@@ -72,7 +72,7 @@ void write_chart(const std::string &path, const std::string &title, const Axis &
 	svg += pong::format(
 		"<text transform=\"translate(14 %.1f) rotate(-90)\" text-anchor=\"middle\" fill=\"#333\">%s</text>\n",
 		(top + height - bottom) / 2, y.label.c_str());
-	double row = top + 14;
+	double row = 0.3 * height;
 	for (const Line &line : lines) {
 		svg += path_of(line, x, y);
 		if (line.name.empty())

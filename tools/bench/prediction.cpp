@@ -13,7 +13,7 @@
 #include "predict/follow.hpp"
 #include "program.hpp"
 #include "recorded.hpp"
-#include "rivals.hpp"
+#include "prediction_rivals.hpp"
 
 namespace bench
 {
