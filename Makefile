@@ -35,11 +35,7 @@ OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
-<<<<<<< HEAD
 # The benchmark flies and pictures the simulator's balls, and reads flights as pongeye-predict does.
-=======
-# The benchmark flies the simulator's balls before the simulator's cameras, and reads flights as pongeye-predict does.
->>>>>>> prophet
 BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
 	renderer room scene section sensor sphere texture world) \
 	$(patsubst %,$(BUILD)/obj/tools/predict/%.o,points follow fit)
