@@ -10,27 +10,39 @@ PREFIX ?= /usr/local
 VERSION := $(shell sed -n 's/^.define PONG_VERSION "\(.*\)"/\1/p' lib/pongeye.h)
 
 # The library, in the order of the data.
-LIB := error document rig camera settings region cells conditions patch five_points blob detect_difference \
-	detect_double detect cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate reconstruct \
-	flight physics trajectory estimate halves track outlook predict window eye
+LIB := \
+	error document \
+	rig camera settings \
+	calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate_refine calibrate \
+	region \
+	cells conditions patch five_points blob detect_difference detect_double detect \
+	cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate \
+	reconstruct \
+	flight physics trajectory noise estimate halves track \
+	outlook predict \
+	window \
+	eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
-PROGRAMS := track predict simulate bench
+PROGRAMS := calibrate track predict simulate bench
 PACKAGES_lib      := eigen3
+PACKAGES_calibrate := eigen3 aravis-0.8
 PACKAGES_track    := aravis-0.8 lcm
 PACKAGES_simulate := eigen3
 PACKAGES_bench    := eigen3
+OPENCV_calibrate  := -lopencv_calib3d -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
-# The benchmark flies the simulator's balls before the simulator's cameras.
+# The benchmark flies and pictures the simulator's balls, and reads flights as pongeye-predict does.
 BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
-	renderer room scene section sensor sphere texture world)
+	renderer room scene section sensor sphere texture world) \
+	$(patsubst %,$(BUILD)/obj/tools/predict/%.o,points follow fit)
 
 # What Debian and Ubuntu call what we need.
 DEBIAN_PACKAGES := pkg-config libeigen3-dev libtomlplusplus-dev libopencv-dev libaravis-dev liblcm-dev liblcm-bin \
-	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2
+	liblcm-java libjchart2d-java default-jdk-headless libgtest-dev iproute2 netpbm
 
 OPTIMISE ?= -O3 -g
 WARNINGS := -Wall -Wextra -Wshadow $(if $(WERROR),-Werror)
@@ -130,6 +142,13 @@ $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
+# Live calibration looks through the tracker's cameras.
+$(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
+	pairing.o)
+
+# The benchmark of calibration finds corners as calibration does.
+$(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)
+
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(VERSION)/' $< >$@
@@ -145,9 +164,10 @@ TEST_PACKAGES := $(sort $(PACKAGES_lib) $(foreach name,$(PROGRAMS),$(PACKAGES_$(
 # Quoted headers are looked for in the tools before the library, whose own ones are not meant for others.
 TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,common $(PROGRAMS))
 
+# Tests are compiled without much optimisation: more time goes into compiling than into running them.
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -O1 $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
 
 $(BUILD)/obj/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
@@ -158,11 +178,24 @@ $(BUILD)/tests/unit: $(UNIT_OBJECTS) $(TOOL_OBJECTS) $(COMMON_OBJECTS) $(BUILD)/
 	$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
 	    -lgtest -lgtest_main -pthread -o $@
 
+# Programs that the scripts use.
+$(BUILD)/tests/lcm_listener: $(BUILD)/obj/tests/sim/lcm_listener.o $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,lcm) -o $@
+
+$(BUILD)/tests/gige_aravis: $(BUILD)/obj/tests/sim/test_gige_aravis.o \
+    $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/simulate/gige/*.cpp)) $(COMMON_OBJECTS)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
+
+SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
+
 .PHONY: test check
 test: deps
 	$(MAKE) check
+	$(MAKE) test-trigger
 
-check: all $(BUILD)/tests/unit
+check: all $(BUILD)/tests/unit $(SIM_PROGRAMS)
 	BUILD=$(BUILD) tests/run
 
 # --- Demo, installation
@@ -176,7 +209,7 @@ INSTALL_DIR := $(DESTDIR)$(PREFIX)
 
 install: all
 	install -d $(addprefix $(INSTALL_DIR)/,bin include/pongeye lib/pkgconfig share/java share/pongeye/lcmtypes)
-	install -m 755 $(PROGRAMS:%=$(BUILD)/bin/pongeye-%) $(BUILD)/bin/pongeye-spy $(INSTALL_DIR)/bin
+	install -m 755 $(addprefix $(BUILD)/bin/pongeye-,$(PROGRAMS) spy trigger) $(INSTALL_DIR)/bin
 	install -m 644 lib/pongeye.h $(INSTALL_DIR)/include
 	install -m 644 $(BUILD)/lcmtypes/c/*.h $(LCM_HPP) $(INSTALL_DIR)/include/pongeye
 	install -m 644 $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye-lcmtypes.a $(INSTALL_DIR)/lib
@@ -190,6 +223,41 @@ install: all
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-.PHONY: clean
+# --- The rest
+
+.PHONY: help sanitize tsan format lint clean
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
+	@echo "  make check      the tests, without installing anything"
+	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer"
+	@echo "  make tsan       the unit tests under ThreadSanitizer"
+	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
+	@echo "  make clean      remove build/"
+	@echo "  CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler, another folder, warnings are errors"
+
+sanitize: deps
+	$(MAKE) $(BUILD)-asan/tests/unit $(PROGRAMS:%=$(BUILD)-asan/bin/pongeye-%) \
+	    BUILD=$(BUILD)-asan SANITIZE=address,undefined OPTIMISE='-O1 -g'
+	BUILD=$(BUILD)-asan ASAN_OPTIONS=detect_leaks=0 tests/run unit refusals
+
+tsan:
+	$(MAKE) $(BUILD)-tsan/tests/unit BUILD=$(BUILD)-tsan SANITIZE=thread OPTIMISE='-O1 -g'
+	$(BUILD)-tsan/tests/unit
+
+SOURCES := $(shell git ls-files '*.cpp' '*.hpp' '*.c' '*.h' 2>/dev/null)
+
+format:
+	clang-format -i $(SOURCES)
+
+lint:
+	clang-format --dry-run -Werror $(SOURCES)
+	clang-tidy --quiet $(filter lib/%.cpp,$(SOURCES)) -- -std=c++17 -Ilib $(call cflags,$(PACKAGES_lib))
+
+# What a variable of this file is: make print-LIB.
+print-%:
+	@echo $($*)
+
 clean:
 	rm -rf $(BUILD)
+
+-include trigger/build.mk

@@ -9,13 +9,14 @@ namespace pong
 namespace
 {
 
-const size_t begin_points = 12;   // a flight so young may still need a few steps a point
-const int begin_steps = 6;        // while young
-const int steady_steps = 3;       // later
-const double settled = 1e-2;      // a step this small, in squared standard deviations, ends the search
-const double outlier = 16;        // squared normalised distance that one in a thousand good points exceeds
-const size_t outlier_points = 6;  // fewer points cannot tell which of them is wrong
-const double position_sigma = 10; // m: none that matters
+const size_t begin_points = 12;      // a flight so young may still need a few steps a point
+const int begin_steps = 6;           // while young
+const int steady_steps = 3;          // later
+const double settled = 1e-2;         // a step this small, in squared standard deviations, ends the search
+const double outlier = 16;           // squared normalised distance that one in a thousand good points exceeds
+const size_t outlier_points = 6;     // fewer points cannot tell which of them is wrong
+const double least_variance = 1e-18; // of what is certain
+const double position_sigma = 10;    // m: none that matters
 const Vector3 usual_velocity(0, 0.5, -6), velocity_sigma(3, 3, 6); // m/s, of play in ball-states
 
 double square(double value)
@@ -39,15 +40,14 @@ Parameters usual_parameters(const pong_ball_spec &ball)
 Parameters usual_sigmas(const pong_ball_spec &ball)
 {
 	Parameters sigmas;
-	sigmas << Vector3::Constant(position_sigma), velocity_sigma, Vector3::Constant(ball.spin_sigma),
-		ball.drag_sigma, ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma,
-		ball.kick, ball.kick;
+	sigmas << Vector3::Constant(position_sigma), velocity_sigma, vector_of(ball.spin_sigma), ball.drag_sigma,
+		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, ball.kick, ball.kick;
 	return sigmas;
 }
 
 } // namespace
 
-Estimate::Estimate(const pong_rig &rig) : rig_(rig), physics_(rig)
+Estimate::Estimate(const pong_rig &rig, double shared_noise) : rig_(rig), physics_(rig), noise_(shared_noise)
 {
 	clear();
 }
@@ -55,8 +55,15 @@ Estimate::Estimate(const pong_rig &rig) : rig_(rig), physics_(rig)
 void Estimate::clear()
 {
 	count_ = 0;
+	noise_.clear();
 	prior_mean_ = usual_parameters(rig_.ball);
-	prior_information_ = usual_sigmas(rig_.ball).cwiseMax(1e-9).array().square().inverse().matrix().asDiagonal();
+	prior_information_ = usual_sigmas(rig_.ball)
+				     .cwiseMax(std::sqrt(least_variance))
+				     .array()
+				     .square()
+				     .inverse()
+				     .matrix()
+				     .asDiagonal();
 }
 
 void Estimate::begin(const pong_point &point)
@@ -73,9 +80,22 @@ void Estimate::add(const pong_point &point)
 	if (count_ == window_)
 		fold();
 	const Matrix3 covariance = Eigen::Map<const Matrix3>(&point.covariance[0][0]);
-	samples_[count_++] = {seconds(anchor_, point.utime), vector_of(point.position), covariance.inverse()};
+	const bool known = covariance.determinant() > 0;
+	samples_[count_++] = {seconds(anchor_, point.utime), vector_of(point.position),
+			      known ? covariance.inverse().eval() : Matrix3::Zero().eval(), !known};
+	if (!known)
+		find_noise(point);
 	improve();
 	find_state();
+}
+
+void Estimate::find_noise(const pong_point &point)
+{
+	noise_.add(point.utime, vector_of(point.position));
+	const Matrix3 information = noise_.sigma().array().square().inverse().matrix().asDiagonal();
+	for (size_t i = 0; i < count_; i++)
+		if (samples_[i].unknown)
+			samples_[i].information = information;
 }
 
 Estimate::Quadratic Estimate::prior_at(const Parameters &parameters) const
@@ -120,47 +140,60 @@ void Estimate::improve()
 			best = parameters_;
 		}
 		const Parameters step = quadratic_.information.llt().solve(quadratic_.gradient);
-		if (!step.allFinite())
+		const double length = step.dot(quadratic_.gradient);
+		if (!std::isfinite(length))
 			break;
 		parameters_ += step;
-		if (step.dot(quadratic_.gradient) < settled)
+		quadratic_.gradient.setZero();
+		if (length < settled)
 			return;
 	}
 	if (!(linearise(parameters_, count_).cost < least))
 		parameters_ = best;
 }
 
-void Estimate::find_state()
+// The next bounce has a kick of its own, of which the last one tells nothing.
+void Estimate::renew_kick(Parameters &parameters, ParameterMatrix &covariance) const
+{
+	for (const int kick : {PONG_STATE_KICK_X, PONG_STATE_KICK_Z}) {
+		covariance.row(kick).setZero();
+		covariance.col(kick).setZero();
+		covariance(kick, kick) = std::max(square(rig_.ball.kick), least_variance);
+		parameters[kick] = 0;
+	}
+}
+
+// The full state at a time, of a quadratic about the present parameters.
+Estimate::Belief Estimate::belief_at(double time, const Quadratic &quadratic, int *bounces) const
 {
 	Trajectory trajectory(physics_, rig_.table, parameters_);
-	const double time = samples_[count_ - 1].time;
 	while (time > trajectory.end().time)
 		trajectory.advance(time);
-	const Motion &now = trajectory.end();
-	ParameterMatrix rates = ParameterMatrix::Identity();
-	rates.middleRows<3>(PONG_STATE_POSITION) = now.position_rates;
-	rates.middleRows<3>(PONG_STATE_VELOCITY) = now.velocity_rates;
-	rates.middleRows<3>(PONG_STATE_SPIN) = now.spin_rates;
-	Parameters coefficients = parameters_;
-	double kick_variance = 0;
-	if (trajectory.bounces() > 0) {
-		rates.bottomRows<2>().setZero(); // the next bounce has a kick of its own
-		coefficients.tail<2>().setZero();
-		kick_variance = square(rig_.ball.kick);
-	}
-	const ParameterMatrix covariance = quadratic_.information.llt().solve(ParameterMatrix::Identity());
-	Eigen::Map<Eigen::Matrix<double, parameter_count, parameter_count, Eigen::RowMajor>> out(
-		&state_.covariance[0][0]);
-	out = rates * covariance * rates.transpose();
-	out(PONG_STATE_KICK_X, PONG_STATE_KICK_X) += kick_variance;
-	out(PONG_STATE_KICK_Z, PONG_STATE_KICK_Z) += kick_variance;
+	*bounces = trajectory.bounces();
+	const Motion &motion = trajectory.end();
+	const ParameterMatrix covariance = quadratic.information.llt().solve(ParameterMatrix::Identity());
+	const Parameters step = covariance * quadratic.gradient;
+	Belief belief = {parameters_ + step, carry(covariance, motion)};
+	belief.mean.segment<3>(PONG_STATE_POSITION) = motion.position + motion.position_rates * step;
+	belief.mean.segment<3>(PONG_STATE_VELOCITY) = motion.velocity + motion.velocity_rates * step;
+	belief.mean.segment<3>(PONG_STATE_SPIN) = motion.spin + motion.spin_rates * step;
+	return belief;
+}
 
+void Estimate::find_state()
+{
+	const double time = samples_[count_ - 1].time;
+	int bounces;
+	Belief now = belief_at(time, quadratic_, &bounces);
+	if (bounces > 0)
+		renew_kick(now.mean, now.covariance);
 	state_.utime = anchor_ + std::llround(time * 1e6);
-	store(now.position, state_.position);
-	store(now.velocity, state_.velocity);
+	store(now.mean.segment<3>(PONG_STATE_POSITION), state_.position);
+	store(now.mean.segment<3>(PONG_STATE_VELOCITY), state_.velocity);
 	state_.has_spin = 1;
-	store(now.spin, state_.spin);
-	Eigen::Map<Eigen::Matrix<double, 7, 1>>{state_.coefficients} = coefficients.tail<7>();
+	store(now.mean.segment<3>(PONG_STATE_SPIN), state_.spin);
+	std::copy_n(now.mean.data() + PONG_STATE_DRAG, PONG_STATE_SIZE - PONG_STATE_DRAG, state_.coefficients);
+	Eigen::Map<ParameterMatrix>{&state_.covariance[0][0]} = now.covariance;
 }
 
 bool Estimate::state(pong_state *state) const
@@ -171,42 +204,30 @@ bool Estimate::state(pong_state *state) const
 	return true;
 }
 
-// The older half's cost, a quadratic about the present estimate, carried to the ball at the first of the newer points:
-// the new anchor.
+// The older half's cost, a quadratic about the present estimate, becomes the prior of the ball at the first of the
+// newer points: the new anchor.
 void Estimate::fold()
 {
 	const size_t half = window_ / 2;
-	const Quadratic old = linearise(parameters_, half);
 	const double time = samples_[half].time;
-	Trajectory trajectory(physics_, rig_.table, parameters_);
-	while (time > trajectory.end().time)
-		trajectory.advance(time);
-	const Motion &now = trajectory.end();
-
-	Eigen::Matrix<double, parameter_count, parameter_count> rates = ParameterMatrix::Identity();
-	rates.middleRows<3>(PONG_STATE_POSITION) = now.position_rates;
-	rates.middleRows<3>(PONG_STATE_VELOCITY) = now.velocity_rates;
-	rates.middleRows<3>(PONG_STATE_SPIN) = now.spin_rates;
-	const Parameters step = old.information.llt().solve(old.gradient);
-	ParameterMatrix covariance = rates * old.information.llt().solve(rates.transpose());
-	Parameters mean = parameters_;
-	mean.segment<3>(PONG_STATE_POSITION) = now.position;
-	mean.segment<3>(PONG_STATE_VELOCITY) = now.velocity;
-	mean.segment<3>(PONG_STATE_SPIN) = now.spin;
-	parameters_ = mean;
-	mean += rates * step;
-	if (trajectory.bounces() > 0) {
-		for (int kick = PONG_STATE_KICK_X; kick <= PONG_STATE_KICK_Z; kick++) {
-			covariance.row(kick).setZero();
-			covariance.col(kick).setZero();
-			covariance(kick, kick) = square(rig_.ball.kick);
-			mean[kick] = parameters_[kick] = 0;
-		}
+	int bounces;
+	Quadratic older = linearise(parameters_, half);
+	Belief then = belief_at(time, older, &bounces);
+	older.gradient.setZero();
+	parameters_ = belief_at(time, older, &bounces).mean;
+	if (bounces > 0) {
+		renew_kick(then.mean, then.covariance);
+		parameters_.tail<2>().setZero();
 	}
-	prior_mean_ = mean;
-	prior_information_ = covariance.llt().solve(ParameterMatrix::Identity());
-	std::copy(samples_.begin() + half, samples_.end(), samples_.begin());
-	count_ = half;
+	prior_mean_ = then.mean;
+	prior_information_ = then.covariance.llt().solve(ParameterMatrix::Identity());
+	move_anchor(time, half);
+}
+
+void Estimate::move_anchor(double time, size_t first)
+{
+	std::copy(samples_.begin() + first, samples_.begin() + count_, samples_.begin());
+	count_ -= first;
 	const int64_t moved = std::llround(time * 1e6);
 	anchor_ += moved;
 	for (size_t i = 0; i < count_; i++)

@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "noise.hpp"
 #include "trajectory.hpp"
 
 namespace pong
@@ -15,10 +16,11 @@ namespace pong
 class Estimate
 {
 public:
-	explicit Estimate(const pong_rig &rig);
+	// `shared_noise`: of points without covariance, see Noise.
+	Estimate(const pong_rig &rig, double shared_noise);
 
 	void clear();
-	// Points come in the order of time.
+	// Points come in the order of time. One whose covariance is zero has an unknown one.
 	void add(const pong_point &point);
 
 	// The ball at the time of the last point. False while there is no point.
@@ -29,6 +31,7 @@ private:
 		double time; // s from the anchor
 		Vector3 position;
 		Matrix3 information; // inverse of the covariance
+		bool unknown;        // that covariance: it is the noise's
 	};
 	// The quadratic that stands for the cost of some points: cost, half gradient, half curvature.
 	struct Quadratic {
@@ -37,23 +40,33 @@ private:
 		ParameterMatrix information;
 	};
 
+	struct Belief {
+		Parameters mean;
+		ParameterMatrix covariance;
+	};
+
 	void begin(const pong_point &point);
+	void find_noise(const pong_point &point);
 	void improve();
 	Quadratic linearise(const Parameters &parameters, size_t samples) const;
 	Quadratic prior_at(const Parameters &parameters) const;
 	void find_state();
 	void fold();
+	void move_anchor(double time, size_t first);
+	void renew_kick(Parameters &parameters, ParameterMatrix &covariance) const;
+	Belief belief_at(double time, const Quadratic &quadratic, int *bounces) const;
 
 	pong_rig rig_;
 	Physics physics_;
 	static const size_t window_ = 64;
+	Noise noise_;
 	std::array<Sample, window_> samples_;
 	size_t count_ = 0; // in the window
 	int64_t anchor_ = 0;
 	Parameters prior_mean_;
 	ParameterMatrix prior_information_;
 	Parameters parameters_;
-	Quadratic quadratic_; // about parameters_, less the last step
+	Quadratic quadratic_; // about parameters_
 	pong_state state_;
 };
 

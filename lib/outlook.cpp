@@ -14,8 +14,6 @@ namespace
 const double net_overhang = 0.1525;  // the net reaches this far beyond the side lines, m
 const double below_surface = -0.002; // a ball's centre that low over the table is an impossibility, m
 
-using StateMatrix = Eigen::Matrix<double, parameter_count, parameter_count, Eigen::RowMajor>;
-
 Parameters parameters_of(const pong_rig &rig, const pong_state &state)
 {
 	const pong_ball_spec &ball = rig.ball;
@@ -27,16 +25,6 @@ Parameters parameters_of(const pong_rig &rig, const pong_state &state)
 		parameters.tail<7>() = Eigen::Map<const Eigen::Matrix<double, 7, 1>>(state.coefficients);
 	}
 	return parameters;
-}
-
-// How the full state at some moment moves with that at the anchor.
-ParameterMatrix state_rates(const Motion &motion)
-{
-	ParameterMatrix rates = ParameterMatrix::Identity();
-	rates.middleRows<3>(PONG_STATE_POSITION) = motion.position_rates;
-	rates.middleRows<3>(PONG_STATE_VELOCITY) = motion.velocity_rates;
-	rates.middleRows<3>(PONG_STATE_SPIN) = motion.spin_rates;
-	return rates;
 }
 
 class Outlook
@@ -86,15 +74,14 @@ private:
 			return state;
 		store(motion.spin, state.spin);
 		Eigen::Map<Eigen::Matrix<double, 7, 1>>{state.coefficients} = parameters_.tail<7>();
-		const ParameterMatrix rates = state_rates(motion);
-		const ParameterMatrix carried = rates * covariance();
-		Eigen::Map<StateMatrix>{&state.covariance[0][0]}.noalias() = carried * rates.transpose();
+		Eigen::Map<ParameterMatrix>{&state.covariance[0][0]} = carry(covariance(), motion);
 		return state;
 	}
 
-	Eigen::Map<const StateMatrix> covariance() const
+	// Symmetric: by rows or by columns is the same.
+	Eigen::Map<const ParameterMatrix> covariance() const
 	{
-		return Eigen::Map<const StateMatrix>(&state_.covariance[0][0]);
+		return Eigen::Map<const ParameterMatrix>(&state_.covariance[0][0]);
 	}
 
 	// Whether the present stretch passes the plane, from whichever side.

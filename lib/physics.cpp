@@ -12,6 +12,7 @@ namespace
 const double standard_gravity = 9.80665; // m/s^2
 const double step_error = 1e-6;          // m
 const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
+const double least_spin = 1e-6;          // rad/s; the same
 const double rolling_part = 0.4;  // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
 const double spin_per_push = 1.5; // m r^2 / I, with I = 2/3 m r^2
 
@@ -39,6 +40,20 @@ Motion motion_at_anchor(const Parameters &parameters)
 	return motion;
 }
 
+ParameterMatrix carry(const ParameterMatrix &covariance, const Motion &motion)
+{
+	const int moving = PONG_STATE_DRAG, constant = parameter_count - moving;
+	Eigen::Matrix<double, moving, parameter_count> rates;
+	rates << motion.position_rates, motion.velocity_rates, motion.spin_rates;
+	const Eigen::Matrix<double, moving, parameter_count> half = rates * covariance;
+	ParameterMatrix carried;
+	carried.topLeftCorner<moving, moving>().noalias() = half * rates.transpose();
+	carried.topRightCorner<moving, constant>() = half.rightCols<constant>();
+	carried.bottomLeftCorner<constant, moving>() = half.rightCols<constant>().transpose();
+	carried.bottomRightCorner<constant, constant>() = covariance.bottomRightCorner<constant, constant>();
+	return carried;
+}
+
 Physics::Physics(const pong_rig &rig) : radius_(rig.ball.diameter / 2)
 {
 	const pong_ball_spec &ball = rig.ball;
@@ -46,15 +61,21 @@ Physics::Physics(const pong_rig &rig) : radius_(rig.ball.diameter / 2)
 	const double volume = 4.0 / 3 * M_PI * radius_ * radius_ * radius_;
 	drag_factor_ = ball.air_density * section / (2 * ball.mass); // of eq. 18: k = drag_factor C
 	magnus_factor_ = 1 / ball.mass;
+	drag_by_spin_ = drag_factor_ * ball.drag_by_spin * radius_;
+	saturation_ = ball.magnus_saturation * radius_;
 	gravity_ = standard_gravity * (1 - ball.air_density * volume / ball.mass); // eq. 17, 19
 }
 
-// a = -k |v| v + m w x v - [0 g' 0]'
+// a = -k |v| v + m q w x v - [0 g' 0]', where q = |v| / (|v| + s r |w|): a ball that spins faster than it flies drags
+// less and less of the air along.
 Vector3 Physics::acceleration(const Parameters &parameters, const Motion &motion) const
 {
 	const Vector3 &v = motion.velocity;
-	return -drag_factor_ * parameters[PONG_STATE_DRAG] * v.norm() * v +
-	       magnus_factor_ * parameters[PONG_STATE_MAGNUS] * motion.spin.cross(v) - Vector3(0, gravity_, 0);
+	const double speed = v.norm() + least_speed;
+	const double q = speed / (speed + saturation_ * motion.spin.norm());
+	const double k = drag_factor_ * parameters[PONG_STATE_DRAG] * speed + drag_by_spin_ * motion.spin.norm();
+	return -k * v + magnus_factor_ * parameters[PONG_STATE_MAGNUS] * q * motion.spin.cross(v) -
+	       Vector3(0, gravity_, 0);
 }
 
 // With a rate l at which velocity turns and fades, the next term of the series that a step drops is
@@ -73,19 +94,23 @@ void Physics::step(const Parameters &parameters, double duration, Motion &motion
 	const double weight[4] = {duration / 6, duration / 3, duration / 3, duration / 6};
 	const double k = drag_factor_ * parameters[PONG_STATE_DRAG];
 	const double m = magnus_factor_ * parameters[PONG_STATE_MAGNUS];
+	const double spin = motion.spin.norm() + least_spin, surface = saturation_ * spin;
 	const Rates spin_part = motion.spin_rates;
 	Vector3 a = Vector3::Zero(), position = motion.position, velocity = motion.velocity;
 	Rates a_rates = Rates::Zero(), position_rates = motion.position_rates, velocity_rates = motion.velocity_rates;
 	for (int stage = 0; stage < 4; stage++) {
 		const Vector3 v = motion.velocity + part[stage] * a;
 		const Rates v_rates = motion.velocity_rates + part[stage] * a_rates;
-		const double speed = v.norm();
-		const Vector3 turn = motion.spin.cross(v);
-		a = -k * speed * v + m * turn - Vector3(0, gravity_, 0);
-		Matrix3 by_velocity = m * cross_matrix(motion.spin) - k * speed * Matrix3::Identity();
-		if (speed > least_speed)
-			by_velocity -= k / speed * v * v.transpose();
-		const Matrix3 by_spin = -m * cross_matrix(v);
+		const double speed = v.norm() + least_speed, q = speed / (speed + surface);
+		const Vector3 turn = q * motion.spin.cross(v);
+		const double drag = k * speed + drag_by_spin_ * spin;
+		a = -drag * v + m * turn - Vector3(0, gravity_, 0);
+		const Matrix3 by_velocity =
+			m * q * cross_matrix(motion.spin) - drag * Matrix3::Identity() +
+			(m * surface / (speed * (speed + surface)) * turn - k * v) * v.transpose() / speed;
+		const Matrix3 by_spin =
+			-m * q * cross_matrix(v) - (m * saturation_ / (speed + surface) * turn + drag_by_spin_ * v) *
+							   motion.spin.transpose() / spin;
 		a_rates.noalias() = by_velocity.lazyProduct(v_rates);
 		a_rates += by_spin.lazyProduct(spin_part);
 		a_rates.col(PONG_STATE_DRAG) -= drag_factor_ * speed * v;

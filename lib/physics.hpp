@@ -29,6 +29,9 @@ struct Motion {
 // A ball at the anchor.
 Motion motion_at_anchor(const Parameters &parameters);
 
+// The covariance of the ball in motion and of the coefficients, from that of the parameters.
+ParameterMatrix carry(const ParameterMatrix &covariance, const Motion &motion);
+
 class Physics
 {
 public:
@@ -56,7 +59,7 @@ private:
 	Impulse impulse(const Parameters &parameters, const Motion &motion) const;
 	void push_along_table(const Parameters &parameters, Motion &motion) const;
 
-	double radius_, drag_factor_, magnus_factor_, gravity_;
+	double radius_, drag_factor_, drag_by_spin_, magnus_factor_, saturation_, gravity_;
 };
 
 } // namespace pong

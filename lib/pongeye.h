@@ -76,6 +76,9 @@ typedef struct pong_image {
 
 typedef enum pong_side { PONG_LEFT = 0, PONG_RIGHT = 1 } pong_side;
 
+/* PONG_PAPER follows the published method to the letter; PONG_BEST is what measures best. */
+typedef enum pong_profile { PONG_PAPER = 0, PONG_BEST = 1 } pong_profile;
+
 /* --------------------------------------------------------------------------------------------------------------
  * Rig: the two cameras, the ball and the table, as rig.toml describes them
  */
@@ -95,13 +98,15 @@ typedef struct pong_ball_spec {
 	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
 	double air_density; /* rho, kg/m^3 */
 	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
-	double magnus;      /* F = magnus spin x velocity, kg */
+	double drag_by_spin; /* what S, the speed of the ball's surface over that of its flight, adds to the drag's C */
+	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
+	double magnus_saturation;
 	double restitution; /* vertical speed after a bounce over that before it */
 	double friction;    /* mu between ball and table */
 	double grip;        /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
 			       as that of a gripping rubber ball is, by this part */
 	double kick;        /* standard deviation of what a bounce adds to the velocity along the table, m/s */
-	double spin_sigma;  /* of a component of the spin that players give to the ball, rad/s */
+	double spin_sigma[3]; /* of the spin that players give to the ball about x, y, z, rad/s; its mean is 0 */
 	/* Standard deviations of the coefficients above: from ball to ball, from day to day. */
 	double drag_sigma, magnus_sigma, restitution_sigma, friction_sigma, grip_sigma;
 } pong_ball_spec;
@@ -127,7 +132,10 @@ PONG_API void pong_rig_defaults(pong_rig *rig);
  * Returns PONG_FOUND, PONG_ERROR_FILE, PONG_ERROR_FORMAT or PONG_ERROR_VALUE, with file, line and column in *error. */
 PONG_API int pong_rig_load(const char *path, pong_rig *rig, pong_error *error);
 
-/* The same from text of any length; name stands for the file in errors. */
+/* The same of a file that may lack the cameras, which are not read: what tracking and predicting points needs. */
+PONG_API int pong_rig_load_flight(const char *path, pong_rig *rig, pong_error *error);
+
+/* As pong_rig_load, from text of any length; name stands for the file in errors. */
 PONG_API int pong_rig_parse(const char *text, const char *name, pong_rig *rig, pong_error *error);
 
 /* Write *rig as TOML text into text[capacity], always terminated. Returns the length that it takes (as snprintf does:
@@ -148,11 +156,117 @@ PONG_API void pong_ray(const pong_camera *camera, const double uv[2], double cen
 PONG_API double pong_apparent_size(const pong_camera *camera, const double position[3], double diameter);
 
 /* --------------------------------------------------------------------------------------------------------------
- * Settings: the methods and numbers of every stage. A profile fills them all; change what you must afterwards.
+ * Calibrate: the two cameras from the corners of boards, and how far they are to be trusted (docs/calibrate.md)
  */
 
-/* PONG_PAPER follows the published method to the letter; PONG_BEST is what measures best. */
-typedef enum pong_profile { PONG_PAPER = 0, PONG_BEST = 1 } pong_profile;
+/* A board, or anything else with points at known places, as it stood in one pair of pictures. Its pose maps board frame
+ * to table frame: X = pose [x y z 1]'. */
+typedef struct pong_view {
+	int placed;            /* whether it is known where it stood; if not, only its corners tell */
+	double pose[3][4];     /* where it was placed, [R | t]; not read unless placed */
+	double sigma_position; /* how well the board frame's origin was placed, standard deviation per axis, m */
+	double sigma_angle;    /* how well it was turned, about each axis, rad */
+	double sigma_shape;    /* how far its points lie from their stated places, per axis, m; 0: it is rigid */
+} pong_view;
+
+/* A point of a board, seen by one camera. */
+typedef struct pong_corner {
+	int view;        /* which view, from 0 */
+	pong_side side;  /* the camera that saw it */
+	int point;       /* which of the board's points, from 0: the same in both cameras */
+	double board[3]; /* its place in the board frame, m */
+	double uv[2];    /* px */
+	double spread;   /* its noise over that of a board's corner; 0 stands for 1 */
+} pong_corner;
+
+/* D in q~ = (q - E) / D, by which the linear method scales its coordinates (paper, eq. 4 and 5). */
+typedef enum pong_normalisation {
+	PONG_NORMALISE_NONE = 0,
+	PONG_NORMALISE_VARIANCE = 1,  /* as printed in the paper */
+	PONG_NORMALISE_DEVIATION = 2, /* the standard deviation */
+} pong_normalisation;
+
+/* What is known of the cameras before any picture: standard deviations about the usual; 0 holds a number fast. */
+typedef struct pong_calibrate_settings {
+	pong_profile profile;             /* the paper's linear method, or the joint refinement */
+	pong_normalisation normalisation; /* of the linear method */
+	int width[2], height[2];          /* of the pictures, by pong_side, px */
+	int frame_is_left_camera;         /* the table frame stands in the left camera: x left, y up, z along its axis;
+					     otherwise placed views say where it is */
+	double aspect;                    /* of fu / fv about 1 */
+	double principal;                 /* of the principal point about the middle, parts of the picture's width */
+	double distortion[5];             /* of k1 k2 p1 p2 k3 about 0 */
+	double loss;                      /* corners farther off than so many sigma weigh less (Huber) */
+} pong_calibrate_settings;
+
+PONG_API void pong_calibrate_defaults(pong_profile profile, pong_calibrate_settings *settings);
+
+/* The numbers that describe a camera, in the order of the covariance: fu fv cu cv (px), k1 k2 p1 p2 k3, a small
+ * rotation about the camera's own x y z (rad), and its centre in the table frame (m). */
+#define PONG_CAMERA_NUMBERS 15
+
+typedef struct pong_calibration {
+	pong_camera camera[2];
+	double covariance[2 * PONG_CAMERA_NUMBERS][2 * PONG_CAMERA_NUMBERS]; /* left then right; NaN: not known */
+	double sigma; /* of a corner, per axis, px: from the residuals */
+	double rms;   /* of the corners' distances, px */
+} pong_calibration;
+
+/* What became of one view. */
+typedef struct pong_view_result {
+	double pose[3][4];       /* where it stood */
+	double covariance[6][6]; /* rotation about the table frame's x y z (rad), position (m) */
+	int corners[2];          /* by pong_side */
+	double rms[2];           /* of the corners' distances, px */
+} pong_view_result;
+
+/* Calibrate both cameras at once. PONG_PAPER needs placed views in at least two planes; PONG_BEST starts from them
+ * where they are there, or from boards in at least two poses. residuals[corner_count] (seen minus expected, px) and
+ * results[view_count] may be NULL.
+ * Returns PONG_FOUND, or PONG_ERROR_VALUE with the reason where the views do not determine two cameras. */
+PONG_API int pong_calibrate(const pong_view *views, int view_count, const pong_corner *corners, int corner_count,
+			    const pong_calibrate_settings *settings, pong_calibration *calibration,
+			    pong_view_result *results, double (*residuals)[2], pong_error *error);
+
+/* Score cameras on views that need not be those they were calibrated with: only the poses of the views are fitted, and
+ * placement is not looked at. *rms is over all corners. */
+PONG_API int pong_calibration_check(const pong_camera camera[2], const pong_view *views, int view_count,
+				    const pong_corner *corners, int corner_count, double *rms,
+				    pong_view_result *results, double (*residuals)[2], pong_error *error);
+
+/* What the calibration alone does to a point that both cameras see: the covariance of the reconstructed position, m^2,
+ * with perfect centres. Returns PONG_FOUND, or PONG_NONE where the point is out of sight of either camera. */
+PONG_API int pong_calibration_error(const pong_calibration *calibration, const double position[3],
+				    double covariance[3][3]);
+
+/* The covariance as it would be with one more view, which is not placed, with these corners (their uv is not read) in
+ * this pose. *after may be *before. */
+PONG_API void pong_calibration_expect(const pong_calibration *before, const double pose[3][4],
+				      const pong_corner *corners, int corner_count, pong_calibration *after);
+
+/* A ball in both pictures, as a tracker recorded it. */
+typedef struct pong_sighting {
+	int32_t track; /* its flight */
+	int64_t utime;
+	double uv[2][2]; /* centres by pong_side, px */
+} pong_sighting;
+
+typedef struct pong_refinement {
+	int sightings, flights, bounces;  /* what was used */
+	double epipolar_before, epipolar; /* rms, px */
+	double bounce_before, bounce;     /* rms height of the bounces over where they should be, m; NaN without */
+	double rotation[3];               /* of the moved camera about its own axes, rad */
+	double covariance[3][3];          /* rad^2 */
+} pong_refinement;
+
+/* Correct the direction of a camera that was knocked since *rig was calibrated: rays of a ball meet, and a ball that
+ * bounces touches the table. Needs at least 20 sightings. Returns PONG_FOUND, or PONG_ERROR_VALUE. */
+PONG_API int pong_refine(pong_rig *rig, pong_side knocked, const pong_sighting *sightings, int count,
+			 pong_refinement *refinement, pong_error *error);
+
+/* --------------------------------------------------------------------------------------------------------------
+ * Settings: the methods and numbers of every stage. A profile fills them all; change what you must afterwards.
+ */
 
 typedef enum pong_detect_method {
 	PONG_DETECT_DIFFERENCE = 0, /* the paper's difference to one earlier picture; finds a ball brighter than what is
@@ -214,6 +328,8 @@ typedef struct pong_settings {
 		double gate_rate; /* and this much farther for every second since the last point, m/s */
 		double lost;      /* a ball not seen for this long is lost, s */
 		double speed;     /* faster than this no ball flies, m/s */
+		double noise;     /* standard deviation of what neighbouring points err alike with, m; for points
+				     without covariance, whose scatter is found out from themselves */
 	} track;
 	struct {
 		pong_predict_method method;
@@ -320,7 +436,7 @@ typedef struct pong_point {
 	int64_t utime;
 	int64_t frame;
 	double position[3];
-	double covariance[3][3]; /* m^2 */
+	double covariance[3][3]; /* m^2; all zero where unknown: the best profile then finds it out */
 } pong_point;
 
 /* The fundamental matrix F of ideal (undistorted) pixels: right' F left = 0 (paper, appendix). */

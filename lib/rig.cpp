@@ -23,21 +23,24 @@ pong_ball_spec usual_ball()
 	pong_ball_spec ball = {};
 	ball.diameter = 0.040;
 	ball.mass = 0.0027;
-	ball.drag = 0.50;
-	ball.drag_sigma = 0.05;
+	ball.drag = 0.40;
+	ball.drag_by_spin = 0.13;
+	ball.drag_sigma = 0.04;
 	ball.air_density = 1.2;
 	ball.bounce[0] = ball.bounce[2] = 0.8;
 	ball.bounce[1] = -0.96;
-	ball.magnus = 4.65e-6;
-	ball.magnus_sigma = 0.4e-6;
-	ball.restitution = 0.93;
-	ball.restitution_sigma = 0.02;
-	ball.friction = 0.25;
-	ball.friction_sigma = 0.05;
-	ball.grip = 0;
-	ball.grip_sigma = 0.05;
+	ball.magnus = 15e-6;
+	ball.magnus_sigma = 1.5e-6;
+	ball.magnus_saturation = 2;
+	ball.restitution = 0.92;
+	ball.restitution_sigma = 0.03;
+	ball.friction = 0.257;
+	ball.friction_sigma = 0.04;
+	ball.grip = 0.15;
+	ball.grip_sigma = 0.1;
 	ball.kick = 0.02;
-	ball.spin_sigma = 80;
+	ball.spin_sigma[0] = 150;
+	ball.spin_sigma[1] = ball.spin_sigma[2] = 50;
 	return ball;
 }
 
@@ -59,7 +62,9 @@ struct Coefficient {
 const Coefficient coefficients[] = {
 	{"drag", &pong_ball_spec::drag, 0, 10},
 	{"drag_sigma", &pong_ball_spec::drag_sigma, 0, 10},
+	{"drag_by_spin", &pong_ball_spec::drag_by_spin, 0, 10},
 	{"magnus", &pong_ball_spec::magnus, 0, 1},
+	{"magnus_saturation", &pong_ball_spec::magnus_saturation, 0, 100},
 	{"magnus_sigma", &pong_ball_spec::magnus_sigma, 0, 1},
 	{"restitution", &pong_ball_spec::restitution, 0, 1},
 	{"restitution_sigma", &pong_ball_spec::restitution_sigma, 0, 1},
@@ -68,7 +73,6 @@ const Coefficient coefficients[] = {
 	{"grip", &pong_ball_spec::grip, -1, 1},
 	{"grip_sigma", &pong_ball_spec::grip_sigma, 0, 1},
 	{"kick", &pong_ball_spec::kick, 0, 10},
-	{"spin_sigma", &pong_ball_spec::spin_sigma, 0, 10000},
 };
 
 pong_ball_spec read_ball(const Document &document)
@@ -76,15 +80,22 @@ pong_ball_spec read_ball(const Document &document)
 	pong_ball_spec ball = usual_ball();
 	if (!document.has_section("ball"))
 		return ball;
-	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "magnus",
-				     "magnus_sigma", "restitution", "restitution_sigma", "friction", "friction_sigma",
-				     "grip", "grip_sigma", "kick", "spin_sigma"});
+	document.allow_only("ball", {"diameter", "mass", "air_density", "bounce", "drag", "drag_sigma", "drag_by_spin",
+				     "magnus", "magnus_sigma", "magnus_saturation", "restitution", "restitution_sigma",
+				     "friction", "friction_sigma", "grip", "grip_sigma", "kick", "spin_sigma"});
 	read_number(document, "ball", "diameter", 0.001, 1, &ball.diameter);
 	read_number(document, "ball", "mass", 0.0001, 10, &ball.mass);
 	read_number(document, "ball", "air_density", 0, 100, &ball.air_density);
 	for (const Coefficient &coefficient : coefficients)
 		read_number(document, "ball", coefficient.key, coefficient.min, coefficient.max,
 			    &(ball.*coefficient.value));
+	if (document.has("ball", "spin_sigma")) {
+		const auto sigma = document.numbers("ball", "spin_sigma", 3);
+		for (const double one : sigma)
+			if (!(one >= 0 && one <= 10000))
+				document.refuse("ball", "spin_sigma", "needs numbers between 0 and 10000 rad/s");
+		std::copy(sigma.begin(), sigma.end(), ball.spin_sigma);
+	}
 	if (document.has("ball", "bounce")) {
 		const auto bounce = document.numbers("ball", "bounce", 3);
 		if (bounce[1] > 0 || bounce[1] < -1)
@@ -146,7 +157,8 @@ pong_camera read_camera(const Document &document, const char *section)
 	return camera;
 }
 
-pong_rig read_rig(const Document &document)
+// All but the cameras.
+pong_rig read_flight(const Document &document)
 {
 	pong_rig rig = {};
 	rig.ball = read_ball(document);
@@ -155,6 +167,12 @@ pong_rig read_rig(const Document &document)
 		document.allow_only("hit", {"z"});
 		read_number(document, "hit", "z", -unbounded, unbounded, &rig.hit_z);
 	}
+	return rig;
+}
+
+pong_rig read_rig(const Document &document)
+{
+	pong_rig rig = read_flight(document);
 	rig.camera[PONG_LEFT] = read_camera(document, "left");
 	rig.camera[PONG_RIGHT] = read_camera(document, "right");
 	return rig;
@@ -205,6 +223,7 @@ std::string write_rig(const pong_rig &rig)
 			   "\nbounce = " + list(rig.ball.bounce, 3, 3) + "\n";
 	for (const Coefficient &coefficient : coefficients)
 		text += std::string(coefficient.key) + " = " + digits(rig.ball.*coefficient.value) + "\n";
+	text += "spin_sigma = " + list(rig.ball.spin_sigma, 3, 3) + "\n";
 	if (rig.table.present)
 		text += "\n[table]\nlength = " + digits(rig.table.length) + "\nwidth = " + digits(rig.table.width) +
 			"\nnet = " + digits(rig.table.net) + "\n";
@@ -235,6 +254,14 @@ int pong_rig_load(const char *path, pong_rig *rig, pong_error *error)
 {
 	return pong::guarded(error, [&] {
 		*rig = pong::read_rig(pong::Document(pong::read_file(path), path));
+		return PONG_FOUND;
+	});
+}
+
+int pong_rig_load_flight(const char *path, pong_rig *rig, pong_error *error)
+{
+	return pong::guarded(error, [&] {
+		*rig = pong::read_flight(pong::Document(pong::read_file(path), path));
 		return PONG_FOUND;
 	});
 }

@@ -32,6 +32,7 @@ void read_numbers(const Document &document, pong_settings &settings)
 		{"track", "gate", &settings.track.gate, 0.001, 10},
 		{"track", "gate_rate", &settings.track.gate_rate, 0, 100},
 		{"track", "lost", &settings.track.lost, 0.001, 10},
+		{"track", "noise", &settings.track.noise, 0, 1},
 		{"track", "speed", &settings.track.speed, 0.1, 200},
 		{"predict", "step", &settings.predict.step, 0.00001, 0.1},
 		{"predict", "horizon", &settings.predict.horizon, 0.01, 10},
@@ -65,7 +66,7 @@ void read_settings(const Document &document, pong_settings &settings)
 		{"detect", {"method", "gap", "contrast"}},
 		{"locate", {"method", "sigma", "exposure"}},
 		{"reconstruct", {"method", "epipolar", "epipolar_size", "size"}},
-		{"track", {"state", "gate", "gate_rate", "lost", "speed"}},
+		{"track", {"state", "gate", "gate_rate", "lost", "speed", "noise"}},
 		{"predict", {"method", "step", "horizon", "path_step"}},
 		{"window", {"margin", "diameters"}},
 	};
@@ -125,6 +126,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->track.gate_rate = 2;
 	settings->track.lost = profile == PONG_PAPER ? 0.1 : 0.6;
 	settings->track.speed = 40;
+	settings->track.noise = 0.0022;
 	settings->predict.method = profile == PONG_PAPER ? PONG_PREDICT_EULER : PONG_PREDICT_SPIN;
 	settings->predict.step = 0.001;
 	settings->predict.horizon = 1.5;

@@ -29,7 +29,8 @@ double seconds(int64_t from, int64_t to)
 class Run
 {
 public:
-	Run(const pong_rig &rig, pong_state_method method) : method_(method), estimate_(rig)
+	Run(const pong_rig &rig, const pong_settings &settings)
+		: method_(settings.track.state), estimate_(rig, settings.track.noise)
 	{
 	}
 
@@ -105,13 +106,14 @@ namespace pong
 namespace
 {
 
-// A covariance that is true says how far the point may lie from where it is expected.
-bool within_covariance(const pong_state &expected, const pong_point &point)
+// True covariances say how far the point may lie from where it is expected; where the point has none, the gate does.
+bool within_covariance(const pong_track &track, const pong_state &expected, const pong_point &point)
 {
 	using Covariance = Eigen::Matrix<double, PONG_STATE_SIZE, PONG_STATE_SIZE, Eigen::RowMajor>;
 	const Eigen::Map<const Covariance> covariance(&expected.covariance[0][0]);
-	const Matrix3 spread = covariance.topLeftCorner<3, 3>() + Eigen::Map<const Matrix3>(&point.covariance[0][0]) +
-			       expected_sigma * expected_sigma * Matrix3::Identity();
+	const Eigen::Map<const Matrix3> of_point(&point.covariance[0][0]);
+	const double sigma = of_point.isZero(0) ? track.settings.track.gate / 3 : expected_sigma;
+	const Matrix3 spread = covariance.topLeftCorner<3, 3>() + of_point + sigma * sigma * Matrix3::Identity();
 	const Vector3 distance = vector_of(point.position) - vector_of(expected.position);
 	return distance.dot(spread.inverse() * distance) <= surprise;
 }
@@ -128,7 +130,7 @@ bool fits(const pong_track &track, const Run &run, const pong_point &point)
 		if (!pong_predict_at(&track.rig, &recent, point.utime, &track.settings, &expected))
 			return false;
 		if (expected.has_spin)
-			return within_covariance(expected, point);
+			return within_covariance(track, expected, point);
 	} else {
 		std::copy_n(run.last().position, 3, expected.position);
 		reach = track.settings.track.gate + track.settings.track.speed * waited;
@@ -177,9 +179,8 @@ bool usable(const pong_point &point)
 pong_track *pong_track_new(const pong_rig *rig, const pong_settings *settings, pong_error *error)
 {
 	return guarded_new(error, [&] {
-		const pong_state_method method = settings->track.state;
-		pong_track *track =
-			new pong_track{*rig, *settings, {Run(*rig, method), Run(*rig, method)}, nullptr, nullptr, 0, 0};
+		pong_track *track = new pong_track{
+			*rig, *settings, {Run(*rig, *settings), Run(*rig, *settings)}, nullptr, nullptr, 0, 0};
 		track->flight = &track->run[0];
 		track->other = &track->run[1];
 		return track;

@@ -41,7 +41,8 @@ public:
 	// All of it, by a step of its own.
 	Motion motion(double time) const;
 
-	// When the coordinate, beyond `value` at the stretch's begin, has fallen to it. Only for a value that is reached.
+	// When the coordinate, beyond `value` at the stretch's begin, has fallen to it. Only for a value that is
+	// reached.
 	double time_at(int axis, double value) const;
 
 private:

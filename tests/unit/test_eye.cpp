@@ -142,7 +142,7 @@ TEST_P(Eye, FollowsABallAndPredictsItsHit)
 	EXPECT_GE(found, 29);
 	EXPECT_GE(windowed, 20);
 	ASSERT_TRUE(scene.sight.has_prediction && scene.sight.prediction.has_hit);
-	EXPECT_NEAR(scene.sight.prediction.hit.position[2], 0, 1e-9);
+	EXPECT_NEAR(scene.sight.prediction.hit.position[2], 0, 1e-6);
 	EXPECT_NEAR(scene.sight.prediction.hit.position[0], scene.hit_x(), 0.08);
 	EXPECT_NEAR(scene.sight.ball.velocity[2], -6, 1.0);
 }

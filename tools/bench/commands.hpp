@@ -4,6 +4,9 @@
 namespace bench
 {
 
+// Compare calibrations.
+int calibration(int argc, char **argv);
+
 // Score a tracker's output against a simulator's truth.
 int score(int argc, char **argv);
 

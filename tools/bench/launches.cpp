@@ -149,7 +149,8 @@ std::vector<pong_point> measure(const sim::Rig &sim_rig, const pong_rig &rig, co
 			sim_rig[side].project(position, &uv);
 			centre[side].u = normal(random, uv.x(), settings.noise);
 			centre[side].v = normal(random, uv.y(), settings.noise);
-			centre[side].radius = sim_rig[side].focal * sim::ball_radius / sim_rig[side].to_camera(position).z();
+			centre[side].radius =
+				sim_rig[side].focal * sim::ball_radius / sim_rig[side].to_camera(position).z();
 			centre[side].covariance[0][0] = centre[side].covariance[1][1] = std::pow(settings.noise, 2);
 		}
 		pong_point point = {};

@@ -13,14 +13,14 @@ namespace bench
 
 // How much is known of a flight before it begins: standard deviations.
 struct Spread {
-	double spin;                            // of a component, rad/s
+	double spin;                                // of a component, rad/s
 	double drag, magnus, restitution, friction; // as in sim::Coefficients
 };
 
 struct LaunchSettings {
-	double spin = 5;      // at most, about any axis, revolutions/s
-	double noise = 0.1;   // of a centre, per axis, px
-	double rate = 110;    // frames/s
+	double spin = 5;    // at most, about any axis, revolutions/s
+	double noise = 0.1; // of a centre, per axis, px
+	double rate = 110;  // frames/s
 	unsigned seed = 1;
 };
 

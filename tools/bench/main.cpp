@@ -13,6 +13,7 @@ const struct {
 	const char *name, *summary;
 	int (*run)(int argc, char **argv);
 } commands[] = {
+	{"calibration", "compare calibrations: the paper's Fig. 9, or on pictures", bench::calibration},
 	{"score", "score a tracker's output against a simulator's truth", bench::score},
 	{"draw", "draw one flight, as the camera saw it and from the side", bench::draw},
 	{"prediction", "predict simulated launches, beside the paper's way and the bound", bench::prediction},

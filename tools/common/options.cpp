@@ -43,12 +43,18 @@ Options::Options(std::string program, std::string summary, std::string example)
 void Options::add(const char *name, const std::string &value, const char *help,
 		  std::function<void(const std::string &)> set)
 {
-	options_.push_back({name, value, help, std::move(set), false});
+	options_.push_back({name, value, help, std::move(set), false, false});
 }
 
 void Options::text(const char *name, const char *value, const char *help, std::string *target)
 {
 	add(name, value, help, [target](const std::string &text) { *target = text; });
+}
+
+void Options::optional_text(const char *name, const char *value, const char *help, std::string *target)
+{
+	text(name, value, help, target);
+	options_.back().value_optional = true;
 }
 
 void Options::number(const char *name, const char *value, const char *help, double *target, double min, double max)
@@ -122,9 +128,10 @@ bool Options::parse(int argc, char **argv)
 		if (!option)
 			throw UsageError(std::string(name[0] == '-' ? "unknown option '" : "unexpected argument '") +
 					 name + "'");
-		if (option->value.empty() ? joined : !joined && i + 1 == argc)
+		const bool left_out = option->value_optional && !joined && (i + 1 == argc || argv[i + 1][0] == '-');
+		if (option->value.empty() ? joined : !joined && !left_out && i + 1 == argc)
 			throw UsageError(name + (joined ? " takes no value" : " needs a value: " + option->value));
-		if (!option->value.empty() && !joined)
+		if (!option->value.empty() && !joined && !left_out)
 			value = argv[++i];
 		option->set(value);
 		option->given = true;

@@ -16,6 +16,8 @@ public:
 
 	// --name VALUE. The help says what it is, with unit and default.
 	void text(const char *name, const char *value, const char *help, std::string *target);
+	// --name or --name VALUE; `value` in brackets. What begins with a dash is the next option.
+	void optional_text(const char *name, const char *value, const char *help, std::string *target);
 	void number(const char *name, const char *value, const char *help, double *target, double min, double max);
 	void integer(const char *name, const char *value, const char *help, int *target, int min, int max);
 	// --name, without a value.
@@ -33,7 +35,7 @@ private:
 	struct Option {
 		std::string name, value, help;
 		std::function<void(const std::string &)> set;
-		bool given;
+		bool value_optional, given;
 	};
 	void add(const char *name, const std::string &value, const char *help,
 		 std::function<void(const std::string &)> set);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "fit.hpp"
 #include "follow.hpp"
 #include "options.hpp"
 #include "points.hpp"
@@ -16,12 +17,13 @@ namespace
 struct Arguments {
 	int profile = PONG_BEST;
 	double hit_plane = 0, noise = 0, ahead = 0, at = 0;
-	bool has_ahead = false, has_at = false;
-	std::string rig, input = "-", fit;
+	bool has_hit_plane = false, has_ahead = false, has_at = false;
+	std::string rig, fit;
 };
 
-const char *const columns = "flight t n hit_t hit_x hit_y hit_z hit_vx hit_vy hit_vz hit_st hit_sx hit_sy bounce_t bounce_x "
-			    "bounce_z";
+const char *const columns =
+	"flight t n hit_t hit_x hit_y hit_z hit_vx hit_vy hit_vz hit_st hit_sx hit_sy bounce_t bounce_x "
+	"bounce_z";
 const char *const ahead_columns = " ahead_x ahead_y ahead_z ahead_sx ahead_sy ahead_sz";
 
 double sigma(double variance)
@@ -104,25 +106,34 @@ void predict_rows(predict::PointReader &reader, const Arguments &arguments, cons
 	}
 }
 
+std::string fit_text(const Arguments &arguments, const pong_settings &settings, pong_rig rig)
+{
+	return predict::fit_text(predict::fit(predict::read_flights(arguments.fit), settings, arguments.noise, rig));
+}
+
 bool parse(int argc, char **argv, Arguments &arguments)
 {
 	pong::Options options(
-		"pongeye-predict", "Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
+		"pongeye-predict",
+		"Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
 		"every point.",
 		"  $ pongeye-predict --ahead 0.2 < flights.txt\n");
 	options.choice("--profile", {"paper", "best"}, "the published method, or what measures best (best)",
 		       &arguments.profile);
-	options.number("--hit-plane", "Z", "the plane on which the robot hits, m (0, or the rig's)", &arguments.hit_plane,
-		       -100, 100);
-	options.number("--ahead", "S", "also the position expected so long after each point, s", &arguments.ahead, 0, 10);
+	options.number("--hit-plane", "Z", "the plane on which the robot hits, m (0, or the rig's)",
+		       &arguments.hit_plane, -100, 100);
+	options.number("--ahead", "S", "also the position expected so long after each point, s", &arguments.ahead, 0,
+		       10);
 	options.number("--at", "T", "also the position expected at this time, s", &arguments.at, -1e12, 1e12);
 	options.number("--noise", "METRES",
 		       "standard deviation of the points where the table has no sx sy sz (found out from the points)",
 		       &arguments.noise, 1e-6, 10);
 	options.text("--rig", "FILE", "ball, table and hit plane; cameras are not needed", &arguments.rig);
-	options.text("--input", "FILE", "read the points from here, not from stdin (-)", &arguments.input);
+	options.text("--fit", "FLIGHTS", "fit the coefficients to these recorded flights, and write them as TOML",
+		     &arguments.fit);
 	if (!options.parse(argc, argv))
 		return false;
+	arguments.has_hit_plane = options.given("--hit-plane");
 	arguments.has_ahead = options.given("--ahead");
 	arguments.has_at = options.given("--at");
 	return true;
@@ -133,21 +144,21 @@ int run(int argc, char **argv)
 	Arguments arguments;
 	if (!parse(argc, argv, arguments))
 		return 0;
-	if (arguments.noise == 0) arguments.noise = 0.002;
 	pong_rig rig;
 	pong_settings settings;
+	pong_error error;
 	pong_rig_defaults(&rig);
+	if (!arguments.rig.empty() && pong_rig_load_flight(arguments.rig.c_str(), &rig, &error) < 0)
+		throw pong::Failure(error.text);
 	pong_settings_defaults(static_cast<pong_profile>(arguments.profile), &settings);
-	rig.hit_z = arguments.hit_plane;
-	std::ifstream file;
-	if (arguments.input != "-") {
-		file.open(arguments.input);
-		if (!file)
-			throw pong::Failure(arguments.input + ": " + strerror(errno));
+	if (arguments.has_hit_plane)
+		rig.hit_z = arguments.hit_plane;
+	if (!arguments.fit.empty()) {
+		printf("%s", fit_text(arguments, settings, rig).c_str());
+		return 0;
 	}
-	predict::PointReader reader(arguments.input == "-" ? std::cin : file,
-				    arguments.input == "-" ? "stdin" : arguments.input);
 	std::ios::sync_with_stdio(false);
+	predict::PointReader reader(std::cin, "stdin");
 	predict_rows(reader, arguments, rig, settings);
 	return 0;
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
 
 #include "program.hpp"
 
@@ -13,8 +16,8 @@ namespace
 {
 
 const size_t line_longest = 65536;
-const double utime_largest = 4e18;                    // what 64 bits hold, with room
-const double coordinate_largest = 1e6;                // m: no ball is there
+const double utime_largest = 4e18;     // what 64 bits hold, with room
+const double coordinate_largest = 1e6; // m: no ball is there
 const std::vector<std::string> names = {"t", "utime", "x", "y", "z", "sx", "sy", "sz", "flight"};
 
 // Words between blanks or commas.
@@ -89,7 +92,8 @@ bool PointReader::take_header()
 		fail("names no column 't': the first line must name the columns, as in '# t x y z'");
 	for (const Column column : {X, Y, Z})
 		if (place_[column] < 0)
-			fail("names no column '" + names[column] + "': the first line must name the columns, as in '# t x y z'");
+			fail("names no column '" + names[column] +
+			     "': the first line must name the columns, as in '# t x y z'");
 	width_ = cells_.size();
 	return true;
 }
@@ -142,7 +146,27 @@ double PointReader::number(Column column) const
 
 void PointReader::fail(const std::string &why) const
 {
-	throw pong::Failure(pong::format("%s:%lld: %s", name_.c_str(), static_cast<long long>(line_number_), why.c_str()));
+	throw pong::Failure(
+		pong::format("%s:%lld: %s", name_.c_str(), static_cast<long long>(line_number_), why.c_str()));
+}
+
+std::vector<RecordedFlight> read_flights(const std::string &path)
+{
+	std::ifstream file;
+	if (path != "-") {
+		file.open(path);
+		if (!file)
+			throw pong::Failure(path + ": " + strerror(errno));
+	}
+	PointReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
+	std::vector<RecordedFlight> flights;
+	Row row;
+	while (reader.next(&row)) {
+		if (row.begins_flight)
+			flights.push_back({row.flight, {}});
+		flights.back().points.push_back(row.point);
+	}
+	return flights;
 }
 
 } // namespace predict

@@ -59,4 +59,12 @@ private:
 	int64_t last_utime_ = 0;
 };
 
+struct RecordedFlight {
+	std::string name;
+	std::vector<pong_point> points;
+};
+
+// All flights of a file; "-" is stdin. Throws pong::Failure.
+std::vector<RecordedFlight> read_flights(const std::string &path);
+
 } // namespace predict

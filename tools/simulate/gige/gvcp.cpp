@@ -1,5 +1,7 @@
 #include "gvcp.hpp"
 
+#include <algorithm>
+
 namespace gige
 {
 
@@ -54,7 +56,8 @@ Bytes make_reply(const Request &request, Status status, const Bytes &data)
 	append16(reply, request.command + 1u);
 	append16(reply, static_cast<uint32_t>(data.size()));
 	append16(reply, request.id);
-	reply.insert(reply.end(), data.begin(), data.end());
+	reply.resize(gvcp::header_size + data.size());
+	std::copy(data.begin(), data.end(), reply.begin() + gvcp::header_size);
 	return reply;
 }
 

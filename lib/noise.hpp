@@ -1,0 +1,38 @@
+// How far points scatter, for points that come without a covariance: found out from the points themselves.
+//
+// Of four neighbouring points the combination that vanishes on every parabola in time is left with noise only: the
+// flight between neighbours hardly differs from a parabola.
+#pragma once
+
+#include <array>
+
+#include "camera.hpp"
+
+namespace pong
+{
+
+class Noise
+{
+public:
+	// What neighbours err alike with does not show in their scatter: `shared`, its standard deviation, m.
+	explicit Noise(double shared);
+
+	void clear();
+	void add(int64_t utime, const Vector3 &position);
+
+	// Standard deviations of x, y, z, m.
+	Vector3 sigma() const;
+
+private:
+	struct Place {
+		int64_t utime;
+		Vector3 position;
+	};
+	double shared_;
+	std::array<Place, 4> latest_;
+	size_t count_ = 0;
+	Vector3 sum_; // of squares
+	double weight_;
+};
+
+} // namespace pong

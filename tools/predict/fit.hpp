@@ -1,0 +1,34 @@
+// The coefficients of air, ball and table from recorded flights.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "points.hpp"
+#include "pongeye.h"
+
+namespace predict
+{
+
+// A coefficient over many flights.
+struct Fitted {
+	const char *key;    // in rig.toml's [ball]
+	double mean, sigma; // what holds for all flights, and how they differ
+	double uncertainty; // standard deviation of the mean
+};
+
+struct Fit {
+	std::vector<Fitted> coefficients;
+	double spin_sigma[3]; // rad/s
+	size_t flights;
+};
+
+// Fit them, from the rig's values on, by expectation maximisation: every flight's most probable coefficients under the
+// present mean and spread, then the mean and spread of those. What the rig believed before counts as a few flights.
+// The rig's ball gets the result.
+Fit fit(const std::vector<RecordedFlight> &flights, const pong_settings &settings, double noise, pong_rig &rig);
+
+// The result as a section of rig.toml.
+std::string fit_text(const Fit &fit);
+
+} // namespace predict
