@@ -1,0 +1,124 @@
+// What a rally does to a track: balls struck back, two at once, gaps, late and repeated points.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <memory>
+
+#include "flights.hpp"
+
+namespace
+{
+
+struct Free {
+	void operator()(pong_track *track) const
+	{
+		pong_track_free(track);
+	}
+};
+
+class Track : public testing::Test
+{
+protected:
+	Track() : rig_(rig_of_simulator())
+	{
+		pong_settings settings;
+		pong_settings_defaults(PONG_BEST, &settings);
+		track_.reset(pong_track_new(&rig_, &settings, nullptr));
+	}
+
+	int push_all(const std::vector<pong_point> &points)
+	{
+		int followed = 0;
+		for (const pong_point &point : points)
+			followed += pong_track_push(track_.get(), &point) != PONG_TRACK_REJECTED;
+		return followed;
+	}
+
+	const pong_rig rig_;
+	std::unique_ptr<pong_track, Free> track_;
+	const sim::Flight flight_ = fly(usual_serve());
+	const std::vector<pong_point> points_ = points_of(flight_, 0, 0.6, 110, 0.002);
+};
+
+TEST_F(Track, FollowsAFlightThroughItsBounce)
+{
+	EXPECT_EQ(push_all(points_), static_cast<int>(points_.size()));
+	EXPECT_EQ(pong_track_id(track_.get()), 1);
+	EXPECT_EQ(pong_track_count(track_.get()), static_cast<int>(points_.size()));
+}
+
+TEST_F(Track, AGapOfTenFramesLosesNothing)
+{
+	std::vector<pong_point> gapped(points_.begin(), points_.begin() + 20);
+	gapped.insert(gapped.end(), points_.begin() + 30, points_.end());
+	EXPECT_EQ(push_all(gapped), static_cast<int>(gapped.size()));
+	EXPECT_EQ(pong_track_id(track_.get()), 1);
+}
+
+TEST_F(Track, LateAndRepeatedPointsAreRejected)
+{
+	push_all({points_.begin(), points_.begin() + 20});
+	EXPECT_EQ(pong_track_push(track_.get(), &points_[19]), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong_track_push(track_.get(), &points_[5]), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong_track_count(track_.get()), 20);
+}
+
+TEST_F(Track, APointThatIsNotFiniteIsRejected)
+{
+	push_all({points_.begin(), points_.begin() + 10});
+	pong_point point = points_[10];
+	point.position[1] = NAN;
+	EXPECT_EQ(pong_track_push(track_.get(), &point), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong_track_push(track_.get(), &points_[11]), PONG_TRACK_FOLLOWED);
+}
+
+TEST_F(Track, AnOutlierIsRejected)
+{
+	push_all({points_.begin(), points_.begin() + 20});
+	pong_point point = points_[20];
+	point.position[0] += 0.4;
+	EXPECT_EQ(pong_track_push(track_.get(), &point), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong_track_push(track_.get(), &points_[21]), PONG_TRACK_FOLLOWED);
+}
+
+// The robot hits at the end of the serve: the ball flies away from it.
+TEST_F(Track, ABallStruckBackIsANewFlight)
+{
+	push_all(points_);
+	sim::Ball ball = flight_.at(0.6);
+	ball.velocity = {0.3, 1.5, 6};
+	auto back = points_of(fly(ball), 0.01, 0.2, 110, 0.002);
+	for (pong_point &point : back)
+		point.utime += 600000;
+	push_all(back);
+	EXPECT_EQ(pong_track_id(track_.get()), 2);
+	pong_state state;
+	ASSERT_TRUE(pong_track_state(track_.get(), &state));
+	EXPECT_GT(state.velocity[2], 3);
+}
+
+TEST_F(Track, OfTwoBallsTheOneThatComesIsFollowed)
+{
+	sim::Ball away = usual_serve();
+	away.position = {-0.4, 0.3, 0.4};
+	away.velocity = {0.1, 1, 5};
+	const auto other = points_of(fly(away), 0, 0.25, 110, 0.002);
+	for (size_t i = 0; i < other.size(); i++) {
+		pong_track_push(track_.get(), &other[i]);
+		pong_point point = points_[i];
+		point.utime += 3000; // the second ball in the same frame, or nearly
+		pong_track_push(track_.get(), &point);
+	}
+	pong_state state;
+	ASSERT_TRUE(pong_track_state(track_.get(), &state));
+	EXPECT_LT(state.velocity[2], 0);
+}
+
+TEST_F(Track, ALostBallEndsTheFlight)
+{
+	push_all({points_.begin(), points_.begin() + 10});
+	pong_track_miss(track_.get(), points_[9].utime + 1000000);
+	EXPECT_EQ(pong_track_id(track_.get()), 0);
+	EXPECT_EQ(pong_track_count(track_.get()), 0);
+}
+
+} // namespace
