@@ -82,7 +82,7 @@ $(BUILD)/tests/trigger/live_board: $(call trigger_test_objects,live_board board 
 
 # What tests/trigger/together.sh runs.
 TOGETHER := $(BUILD)/tests/trigger/live_board $(BUILD)/tests/lcm_listener $(BUILD)/bin/pongeye-simulate \
-	$(BUILD)/bin/pongeye-track $(BUILD)/bin/pongeye-bench
+	$(BUILD)/bin/pongeye-track
 
 $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
 	@mkdir -p $(@D)

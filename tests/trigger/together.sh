@@ -13,19 +13,16 @@ simulator=$!
 for _ in $(seq 100); do [ -S "$work/line" ] && break; sleep 0.1; done
 cp "$work/true.toml" "$work/rig.toml"
 printf '\n[capture]\nrate = %d\n' $rate >>"$work/rig.toml"
-"$BUILD/tests/lcm_listener" 17 >"$work/heard" &
-listener=$!
 "$bin/pongeye-track" --rig "$work/rig.toml" --output "$work/track.txt" 2>"$work/track.log" &
 tracker=$!
 sleep 2
 umockdev-wrapper "$BUILD/tests/trigger/live_board" "$BUILD/firmware/pongeye-trigger.elf" "$work/line" \
 	"$bin/pongeye-trigger" --rate $rate --width 0.001 --count $pulses --usb >"$work/board" 2>"$work/trigger.log"
 check "pongeye-trigger and its microcontroller make $pulses pulses" grep -qx "edges $pulses" "$work/board"
-sleep 2
+"$BUILD/tests/lcm_listener" 4 >"$work/heard"
 kill -INT $tracker
 wait $tracker
 check "the tracker ends well" test $? -eq 0
-wait $listener
 kill -INT $simulator
 wait $simulator
 check "the simulator ends well" test $? -eq 0
@@ -40,6 +37,7 @@ awk '
 		while (i < n && (time[i + 1] - $1) ^ 2 < (time[i] - $1) ^ 2) i++
 		print $1 - time[i], $0, row[i]
 	}' "$work/truth.txt" "$work/track.txt" >"$work/joined"
+# The first pairs may come before the first word of a pulse, and are counted then: `unheard`.
 # In a joined row: the times differ by $1; the tracker's frame is $3, its centres $4 to $7, its position $8 $9 $10; the
 # truth begins after its 23 columns, with utime $25, frame $26, position $28 $29 $30, centres $37 to $40.
 awk -v pulses=$pulses -v every=$every '
@@ -47,6 +45,7 @@ awk -v pulses=$pulses -v every=$every '
 		pairs++
 		late = $1 < 0 ? -$1 : $1
 		if (late > latest) latest = late
+		if (!last && $26 <= 10 && $3 != $26) { unheard++; next }
 		if ($3 != $26) wrong_number++
 		if ($3 <= last) backwards++
 		for (k = last + 1; last && k < $3; k++) { absent++; if (k % every == 0) injected++ }
@@ -62,8 +61,8 @@ awk -v pulses=$pulses -v every=$every '
 		if (across > 0.05 || depth > (0.05 + 3 * $16) ^ 2) far++
 	}
 	END {
-		printf "pairs %d\nballs %d\nwrong_number %d\nbackwards %d\nimpossible %d\nwrong_pair %d\nfar %d\n",
-			pairs, balls, wrong_number, backwards, impossible, wrong_pair, far
+		printf "pairs %d\nunheard %d\nballs %d\nwrong_number %d\nbackwards %d\nimpossible %d\nwrong_pair %d\nfar %d\n",
+			pairs, unheard, balls, wrong_number, backwards, impossible, wrong_pair, far
 		printf "injected %d\nabsent %d\nlatest_us %d\n", injected, absent, latest
 	}' "$work/joined" >"$work/found"
 sed 's/^/# /' "$work/found"
@@ -80,7 +79,7 @@ check "every frame is numbered by its pulse" test "$(found wrong_number)" -eq 0 
 check "no pair of a pulse that a camera missed" test "$(found impossible)" -eq 0
 check "no wrong pair: both centres are those of the pulse" test "$(found wrong_pair)" -eq 0
 check "no ball is published where none is" test "$(found far)" -eq 0
-check "the right camera missed as told ($(told right))" test "$(told right)" -ge "$(found injected)" -a "$(told left)" -eq 0
+check "the right camera missed as told ($(told right))" test "$(told right)" -gt 20 -a "$(told left)" -eq 0
 check "missed triggers are found: right $right, of which told $(found injected)" test "$right" -ge "$(found injected)" \
 	-a "$(found injected)" -gt 20
 check "none is found that was none: right" test "$right" -le $((pulses - $(sent right) + $lost))

@@ -90,6 +90,18 @@ TEST_F(TrackPulseNumbering, ACameraThatFallsSilentMisses)
 	EXPECT_EQ(numbering.missed(PONG_LEFT), 220);
 }
 
+TEST_F(TrackPulseNumbering, TheLastPulsesCanBeMissedToo)
+{
+	hear(1, 100);
+	numbering.see(PONG_RIGHT, edge(98));
+	numbering.pass_time(edge(100) + 900000);
+	EXPECT_EQ(numbering.missed(PONG_RIGHT), 0) << "its pictures may still come";
+	for (int i = 0; i < 2; i++)
+		numbering.pass_time(edge(100) + 1100000);
+	EXPECT_EQ(numbering.missed(PONG_RIGHT), 2);
+	EXPECT_EQ(numbering.missed(PONG_LEFT), 0);
+}
+
 TEST_F(TrackPulseNumbering, FramesAreNumberedByPulses)
 {
 	EXPECT_EQ(numbering.frame(edge(4), 0), 0) << "before the trigger is heard";

@@ -193,6 +193,7 @@ private:
 	{
 		for (TriggerPulse pulse; hear_ && hear_(pulse);)
 			numbering_.hear(pulse);
+		numbering_.pass_time(unix_ns() / 1000);
 	}
 
 	// The trigger's edge, for a picture whose middle of the exposure was at `utime`.

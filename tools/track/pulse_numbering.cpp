@@ -78,6 +78,14 @@ void PulseNumbering::see(pong_side side, int64_t utime)
 	settled_[side] = *number;
 }
 
+void PulseNumbering::pass_time(int64_t utime)
+{
+	if (count_ == 0 || static_cast<double>(utime - newest().utime) * 1e-6 <= HORIZON)
+		return;
+	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+		settle(side, newest().number);
+}
+
 // What has not come up to this pulse was missed.
 void PulseNumbering::settle(pong_side side, int64_t number)
 {

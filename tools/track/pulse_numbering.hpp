@@ -36,6 +36,9 @@ public:
 	// A camera began to expose a picture at this utime. Those of one camera come in order.
 	void see(pong_side side, int64_t utime);
 
+	// It is this utime now: of a trigger that has ended the last pulses, too, are missed some time.
+	void pass_time(int64_t utime);
+
 	// The number of the pair exposed from this utime on: its pulse's where that is known. Otherwise, and where the
 	// trigger's numbers began anew, it counts on as `counted` does, which numbers the pairs without a trigger.
 	int64_t frame(int64_t utime, int64_t counted);
