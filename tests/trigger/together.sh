@@ -37,7 +37,7 @@ awk '
 		while (i < n && (time[i + 1] - $1) ^ 2 < (time[i] - $1) ^ 2) i++
 		print $1 - time[i], $0, row[i]
 	}' "$work/truth.txt" "$work/track.txt" >"$work/joined"
-# The first pairs may come before the first word of a pulse, and are counted then: `unheard`.
+# The first pairs may come before the first word of a pulse, and are counted then: `unheard`, for half a second at most.
 # In a joined row: the times differ by $1; the tracker's frame is $3, its centres $4 to $7, its position $8 $9 $10; the
 # truth begins after its 23 columns, with utime $25, frame $26, position $28 $29 $30, centres $37 to $40.
 awk -v pulses=$pulses -v every=$every '
@@ -45,7 +45,7 @@ awk -v pulses=$pulses -v every=$every '
 		pairs++
 		late = $1 < 0 ? -$1 : $1
 		if (late > latest) latest = late
-		if (!last && $26 <= 10 && $3 != $26) { unheard++; next }
+		if (!last && $26 <= 55 && $3 != $26) { unheard++; next }
 		if ($3 != $26) wrong_number++
 		if ($3 <= last) backwards++
 		for (k = last + 1; last && k < $3; k++) { absent++; if (k % every == 0) injected++ }
