@@ -144,7 +144,7 @@ $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
 # Live calibration looks through the tracker's cameras.
 $(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
-	pairing.o)
+	pairing.o pulse_numbering.o)
 
 # The benchmark of calibration finds corners as calibration does.
 $(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)

@@ -1,11 +1,12 @@
 # pongeye-trigger, its firmware and their tests; included by the top Makefile.
 #   make firmware        build/firmware/pongeye-trigger.hex, for the ATmega32U4
 #   make flash           write it (press the board's reset first); PORT=/dev/ttyACM0
-#   make test-trigger    the firmware in simavr, and pongeye-trigger against it
+#   make test-trigger    the firmware in simavr, pongeye-trigger against it, and the tracker triggered by both
 #   make test-hil        pongeye-trigger in a virtual machine, with Debian's kernel, GPIO lines and USB
 
 TRIGGER_DEBIAN_PACKAGES := gcc-avr avr-libc libsimavr-dev libelf-dev libumockdev-dev umockdev libgtest-dev \
-	libusb-1.0-0-dev libgpiod-dev liblcm-dev liblcm-bin pkg-config
+	libusb-1.0-0-dev libgpiod-dev liblcm-dev liblcm-bin libeigen3-dev libtomlplusplus-dev libopencv-dev \
+	libaravis-dev iproute2 util-linux pkg-config
 
 # --- The program. libgpiod's version decides which of two files speaks to it.
 
@@ -75,6 +76,14 @@ $(BUILD)/tests/trigger/test_firmware $(BUILD)/tests/trigger/test_usb $(BUILD)/te
 	@mkdir -p $(@D)
 	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
 
+$(BUILD)/tests/trigger/live_board: $(call trigger_test_objects,live_board board usbfs child)
+	@mkdir -p $(@D)
+	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0) -o $@
+
+# What tests/trigger/together.sh runs.
+TOGETHER := $(BUILD)/tests/trigger/live_board $(BUILD)/tests/lcm_listener $(BUILD)/bin/pongeye-simulate \
+	$(BUILD)/bin/pongeye-track
+
 $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
@@ -82,13 +91,15 @@ $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
 .PHONY: test-trigger
 test-trigger:
 	@$(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(TRIGGER_DEBIAN_PACKAGES)"
-	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK)
+	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK) \
+	    $(TOGETHER)
 	@! ldd $(BUILD)/bin/pongeye-trigger | grep simavr
 	$(BUILD)/tests/trigger/test_parts
 	$(BUILD)/tests/trigger/test_firmware $(FIRMWARE).elf
 	umockdev-wrapper $(BUILD)/tests/trigger/test_usb $(FIRMWARE).elf $(BUILD)/bin/pongeye-trigger \
 	    $(abspath $(EMULATED_CLOCK))
 	umockdev-wrapper $(BUILD)/tests/trigger/test_pwm $(BUILD)/bin/pongeye-trigger
+	BUILD=$(BUILD) tests/trigger/together.sh
 
 # --- Emulated hardware: Debian's kernel in QEMU, with gpio-sim for lines and a board in simavr for USB.
 
