@@ -20,15 +20,15 @@ all: $(BUILD)/bin/pongeye-trigger
 
 .SECONDARY: $(LCM_HPP)
 $(BUILD)/obj/trigger/%.o: trigger/%.cpp | $(LCM_HPP)
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itrigger \
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itrigger \
 	    $(call cflags,$(TRIGGER_PACKAGES)) -c $< -o $@
 
 # Which objects it needs is asked only now, after libgpiod may have been installed.
 .SECONDEXPANSION:
 $(BUILD)/bin/pongeye-trigger: $(BUILD)/obj/trigger/main.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -pthread -o $@
 
 # --- The firmware
 
@@ -40,8 +40,8 @@ FIRMWARE_SOURCES := $(wildcard trigger/firmware/*.c)
 firmware: $(FIRMWARE).hex
 
 $(FIRMWARE).elf: $(FIRMWARE_SOURCES) $(wildcard trigger/firmware/*.h) trigger/protocol.h
-	@mkdir -p $(@D)
-	avr-gcc $(AVR_CFLAGS) -Wl,--gc-sections $(FIRMWARE_SOURCES) -o $@
+	$(begin)
+	$(Q)avr-gcc $(AVR_CFLAGS) -Wl,--gc-sections $(FIRMWARE_SOURCES) -o $@
 	avr-size $@
 
 $(FIRMWARE).hex: $(FIRMWARE).elf
@@ -61,32 +61,32 @@ TRIGGER_TEST_PROGRAMS := $(TRIGGER_TESTS:%=$(BUILD)/tests/trigger/test_%)
 EMULATED_CLOCK := $(BUILD)/tests/trigger/emulated_clock.so
 
 $(BUILD)/obj/tests/trigger/%.o: tests/trigger/%.cpp | $(LCM_HPP)
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
 
 trigger_test_objects = $(patsubst %,$(BUILD)/obj/tests/trigger/%.o,$(1))
 $(BUILD)/tests/trigger/test_firmware: $(call trigger_test_objects,test_firmware test_firmware_usb board)
 $(BUILD)/tests/trigger/test_parts: $(BUILD)/obj/tests/trigger/test_parts.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@
 
 $(BUILD)/tests/trigger/test_pwm: $(call trigger_test_objects,test_pwm child)
 $(BUILD)/tests/trigger/test_usb: $(call trigger_test_objects,test_usb board usbfs child)
 $(BUILD)/tests/trigger/test_firmware $(BUILD)/tests/trigger/test_usb $(BUILD)/tests/trigger/test_pwm:
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
 
 $(BUILD)/tests/trigger/live_board: $(call trigger_test_objects,live_board board usbfs child)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0) -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0) -o $@
 
 # What tests/trigger/together.sh runs.
 TOGETHER := $(BUILD)/tests/trigger/live_board $(BUILD)/tests/lcm_listener $(BUILD)/bin/pongeye-simulate \
 	$(BUILD)/bin/pongeye-track
 
 $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
-	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
+	$(begin)
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
 
 .PHONY: test-trigger
 test-trigger:
@@ -129,12 +129,12 @@ define with_libgpiod2
 endef
 
 $(BUILD)/obj/tests/hil/%.o: tests/hil/%.cpp
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
 
 $(HIL)/usbip_device: $(BUILD)/obj/tests/hil/usbip_device.o $(BUILD)/obj/tests/trigger/board.o
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -o $@
 
 $(HIL)/initrd.gz: $(HIL)/kernel/vmlinuz $(FIRMWARE).elf $$(HIL_PROGRAMS) $(HIL)/usbip_device $(wildcard tests/hil/guest-*) \
     tests/hil/make-initrd
