@@ -122,7 +122,7 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 {
 	const EdgePoint none = {{0, 0}, INFINITY};
 	const double blur = lens + std::abs(task.streak.dot(direction)) / 2 + circle.uncertainty;
-	const double depth = std::max(3.0, 0.45 * circle.radius); // of the ball's inside that tells its brightness
+	const double depth = std::max(2.5, 0.2 * circle.radius); // of the ball's inside that tells its brightness
 	Profile profile;
 	profile.begin = std::max(0.0, circle.radius - blur - depth);
 	profile.watched = static_cast<int>(beyond / step);

@@ -35,6 +35,7 @@ const int first_curved = 8;        // the first parameter of a shading term of s
 const double shading_prior = 1000; // standard deviations of the shading's coefficients, grey levels: of the zeroth and
 const double curved_prior = 20;    // first order, and of the second
 const double shading_error_part = 0.004; // of a radius: what shading that nine terms can't express does to the centre
+const double streak_error_part = 0.008;  // of a streak: the velocity is not known exactly
 const double unexplained_allowed = 0.5;  // of the difference to the background
 const double variance_least = 0.05;
 
@@ -241,7 +242,8 @@ using Normal = Eigen::Matrix<double, sphere_parameters, sphere_parameters>;
 class SphereFit
 {
 public:
-	SphereFit(Pixels &pixels, const Streak &streak, double radius) : pixels_(pixels), streak_(streak), start_{}
+	SphereFit(Pixels &pixels, const Streak &streak, double radius, double limit)
+		: pixels_(pixels), streak_(streak), limit_(limit), start_{}
 	{
 		start_.radius() = static_cast<float>(radius);
 		start_.blur() = static_cast<float>(step_width);
@@ -260,9 +262,8 @@ public:
 			for (int i = 0; i < sphere_parameters; i++)
 				now_.value[i] += static_cast<float>(step[i]);
 			now_.blur() = std::clamp<float>(now_.blur(), step_least, step_most);
-			const double limit = farthest_px + farthest * start_.radius();
-			if (!(std::hypot(now_.u(), now_.v()) < limit) ||
-			    !(std::abs(now_.radius() - start_.radius()) < limit))
+			if (!(std::hypot(now_.u(), now_.v()) < limit_) ||
+			    !(std::abs(now_.radius() - start_.radius()) < limit_))
 				return false;
 			if (round > plain_rounds && step.head<2>().norm() < converged)
 				break;
@@ -345,6 +346,7 @@ private:
 
 	Pixels &pixels_;
 	const Streak streak_;
+	const double limit_; // how far centre and radius may move, px
 	SphereParameters start_, now_;
 	Normal normal_;
 	Parameters right_;
@@ -366,7 +368,8 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 	PixelLayout layout(task, camera, plane, start, radius);
 	Pixels pixels;
 	layout.fill(&pixels);
-	SphereFit fit(pixels, layout.streak(), radius);
+	const double streak = task.streak.norm();
+	SphereFit fit(pixels, layout.streak(), radius, farthest_px + farthest * (radius + streak));
 	if (!fit.run())
 		return true; // the edges stand
 	if (!fit.explains())
@@ -377,7 +380,7 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 	Matrix2 jacobian;
 	for (int axis = 0; axis < 2; axis++)
 		jacobian.col(axis) = plane.to_pixel(camera, place + Vector2::Unit(axis)) - uv;
-	const double shading_error = shading_error_part * radius;
+	const double shading_error = shading_error_part * radius + streak_error_part * streak;
 	const Matrix2 covariance = jacobian * fit.covariance() * jacobian.transpose() +
 				   shading_error * shading_error * Matrix2::Identity();
 	*centre = {uv.x(), uv.y(), found.radius() / plane.frame(2, 2), {}};

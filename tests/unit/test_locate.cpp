@@ -83,7 +83,8 @@ TEST(Locate, FollowsShadedBallsByEveryMethod)
 	pong_centre centre;
 	EXPECT_LT(sight.error(PONG_LOCATE_GAUSSIAN, &centre), 6);
 	EXPECT_LT(sight.error(PONG_LOCATE_CENTROID, &centre), 1);
-	EXPECT_LT(sight.error(PONG_LOCATE_EDGES, &centre), 0.3);
+	// The outline is brighter than the background above, darker below, and neither in between: hard for edges.
+	EXPECT_LT(sight.error(PONG_LOCATE_EDGES, &centre), 1.2);
 	EXPECT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
 }
 
