@@ -113,6 +113,17 @@ TEST(SimulateFlight, TouchesTheTableExactly)
 		EXPECT_GT(flight.at(t).position.y(), 0.020 - 1e-9);
 }
 
+// Bounce after bounce the ball's time aloft shrinks, without an end of its own.
+TEST(SimulateFlight, EndsWhereTheBallRolls)
+{
+	sim::Ball dropped = ball_with(Vector3d::Zero(), Vector3d::Zero());
+	dropped.position = {0, 0.021, 1};
+	const sim::Flight flight(vacuum(), dropped, {});
+	EXPECT_GT(flight.bounces().size(), 2u);
+	EXPECT_LT(flight.bounces().size(), 100u);
+	EXPECT_LT(flight.duration(), 3);
+}
+
 TEST(SimulateServe, IsPlausibleAndItsOwn)
 {
 	const sim::FlightSettings settings;

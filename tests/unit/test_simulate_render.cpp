@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/simulate/lens.hpp"
 #include "tools/simulate/renderer.hpp"
 
 namespace
@@ -142,6 +143,15 @@ TEST(SimulateRender, WhollySeenEndsAtTheBorder)
 	EXPECT_TRUE(sim::wholly_seen(camera, at_pixel(300, radius + 1)));
 	EXPECT_FALSE(sim::wholly_seen(camera, at_pixel(300, radius - 2)));
 	EXPECT_FALSE(sim::wholly_seen(camera, {0, 0.5, -0.6}));
+}
+
+// What is wholly outside of the picture has no part in it, rather than one of negative size.
+TEST(SimulateRender, RectanglesApartShareNothing)
+{
+	const sim::Rect shared = sim::intersection({700, 500, 20, 20}, {0, 0, 640, 480});
+	EXPECT_TRUE(shared.empty());
+	EXPECT_EQ(shared.width, 0);
+	EXPECT_EQ(shared.height, 0);
 }
 
 TEST(SimulateRender, OneSeedOnePicture)

@@ -12,8 +12,9 @@ namespace sim
 namespace
 {
 
-constexpr double step = 0.002;  // between samples, s: a cubic between them is good to a nanometre
-constexpr double longest = 3.0; // no flight takes longer, s
+constexpr double step = 0.002;         // between samples, s: a cubic between them is good to a nanometre
+constexpr double longest = 3.0;        // no flight takes longer, s
+constexpr double least_rebound = 0.05; // a ball that leaves the table slower rolls: its flight is over, m/s
 
 bool touches_table(const Ball &ball)
 {
@@ -54,6 +55,8 @@ Flight::Flight(const Coefficients &coefficients, const Ball &launch, const Plane
 				bounces_.push_back(now.ball);
 			now.ball = bounce(coefficients, now.ball);
 			samples_.push_back(now);
+			if (now.ball.velocity.y() < least_rebound)
+				break;
 		}
 	}
 }

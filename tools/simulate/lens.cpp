@@ -38,7 +38,8 @@ int Rect::bottom() const
 Rect intersection(const Rect &a, const Rect &b)
 {
 	const int u = std::max(a.u, b.u), v = std::max(a.v, b.v);
-	return {u, v, std::min(a.right(), b.right()) - u, std::min(a.bottom(), b.bottom()) - v};
+	return {u, v, std::max(0, std::min(a.right(), b.right()) - u),
+		std::max(0, std::min(a.bottom(), b.bottom()) - v)};
 }
 
 Rect grown(const Rect &a, double u, double v)
