@@ -35,7 +35,7 @@ OPENCV_track      := -lopencv_imgcodecs -lopencv_core
 OPENCV_simulate   := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
 OPENCV_bench      := -lopencv_imgcodecs -lopencv_calib3d -lopencv_imgproc -lopencv_core
 
-# The benchmark flies the simulator's balls before the simulator's cameras, and reads flights as pongeye-predict does.
+# The benchmark flies and pictures the simulator's balls, and reads flights as pongeye-predict does.
 BORROWED_bench := $(patsubst %,$(BUILD)/obj/tools/simulate/%.o,ball flight serve camera backdrop board lens people \
 	renderer room scene section sensor sphere texture world) \
 	$(patsubst %,$(BUILD)/obj/tools/predict/%.o,points follow fit)
@@ -57,6 +57,11 @@ override LDFLAGS  += $(SANITIZE_FLAGS)
 # headers, so that our warnings are about our own code.
 cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
 libs   = $(if $(1),$(shell pkg-config --libs $(1)))
+
+# As many jobs as there are processors; a line for each thing made, or with V=1 the whole commands.
+MAKEFLAGS += --jobs=$(shell nproc)
+Q := $(if $(V),,@)
+begin = @mkdir -p $(@D)$(if $(V),,; echo "  $@")
 
 .PHONY: all
 all: $(BUILD)/lib/libpongeye.a $(BUILD)/lib/libpongeye.so $(BUILD)/lib/libpongeye-lcmtypes.a $(BUILD)/lib/pongeye.jar \
@@ -82,16 +87,16 @@ deps:
 LIB_OBJECTS := $(LIB:%=$(BUILD)/obj/lib/%.o)
 
 $(BUILD)/obj/lib/%.o: lib/%.cpp
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(call cflags,$(PACKAGES_lib)) -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(call cflags,$(PACKAGES_lib)) -c $< -o $@
 
 $(BUILD)/lib/libpongeye.a: $(LIB_OBJECTS)
-	@mkdir -p $(@D)
-	$(AR) rcs $@ $^
+	$(begin)
+	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/lib/libpongeye.so: $(LIB_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) -shared -Wl,-soname,libpongeye.so.0 $(LDFLAGS) $^ -o $@
+	$(begin)
+	$(Q)$(CXX) -shared -Wl,-soname,libpongeye.so.0 $(LDFLAGS) $^ -o $@
 
 # --- The messages. lcm-gen fails without its output folder, and exits 0 all the same.
 
@@ -100,57 +105,57 @@ LCM_HPP  := $(LCMTYPES:lcmtypes/%.lcm=$(BUILD)/lcmtypes/pongeye/%.hpp)
 
 $(BUILD)/lcmtypes/pongeye/%.hpp: lcmtypes/%.lcm
 	@mkdir -p $(@D) $(BUILD)/lcmtypes/c
-	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(BUILD)/lcmtypes $<
-	lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
+	$(Q)lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(BUILD)/lcmtypes $<
+	$(Q)lcm-gen --c --c-cpath $(BUILD)/lcmtypes/c --c-hpath $(BUILD)/lcmtypes/c $<
 	@test -s $@
 
 # For robots in C: the messages' encoders, to be linked with lcm.
 $(BUILD)/lib/libpongeye-lcmtypes.a: $(LCM_HPP)
-	@mkdir -p $(@D)
-	cd $(BUILD)/lcmtypes/c && $(CC) -std=gnu11 -O2 -fPIC $(call cflags,lcm) -c *.c
-	$(AR) rcs $@ $(BUILD)/lcmtypes/c/*.o
+	$(begin)
+	$(Q)cd $(BUILD)/lcmtypes/c && $(CC) -std=gnu11 -O2 -fPIC $(call cflags,lcm) -c *.c
+	$(Q)$(AR) rcs $@ $(BUILD)/lcmtypes/c/*.o
 
 $(BUILD)/lib/pongeye.jar: $(LCMTYPES)
 	@mkdir -p $(BUILD)/lcmtypes/java/classes $(@D)
-	lcm-gen --java --jpath $(BUILD)/lcmtypes/java $^
-	javac -cp /usr/share/java/lcm.jar -d $(BUILD)/lcmtypes/java/classes $(BUILD)/lcmtypes/java/pongeye/*.java
-	jar cf $@ -C $(BUILD)/lcmtypes/java/classes .
+	$(Q)lcm-gen --java --jpath $(BUILD)/lcmtypes/java $^
+	$(Q)javac -cp /usr/share/java/lcm.jar -d $(BUILD)/lcmtypes/java/classes $(BUILD)/lcmtypes/java/pongeye/*.java
+	$(Q)jar cf $@ -C $(BUILD)/lcmtypes/java/classes .
 
 # --- The programs
 
 COMMON_OBJECTS := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/common/*.cpp))
 
 $(BUILD)/obj/tools/common/%.o: tools/common/%.cpp
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
 
 # The objects of a program, without its main: tests link these too.
 objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out %/main.cpp,$(shell find tools/$(1) -name '*.cpp' 2>/dev/null | sort)))
 
 define program
 $(BUILD)/obj/tools/$(1)/%.o: tools/$(1)/%.cpp
-	@mkdir -p $$(@D)
-	$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools -Itools/common -Itools/$(1) \
+	$$(begin)
+	$$(Q)$$(CXX) $$(CPPFLAGS) $$(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools -Itools/common -Itools/$(1) \
 	    $$(call cflags,$$(PACKAGES_$(1)) $$(if $$(OPENCV_$(1)),opencv4)) -c $$< -o $$@
 
 $(if $(filter lcm,$(PACKAGES_$(1))),$(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)): | $(LCM_HPP))
 
 $(BUILD)/bin/pongeye-$(1): $(BUILD)/obj/tools/$(1)/main.o $(call objects_of,$(1)) $(BORROWED_$(1)) $(COMMON_OBJECTS) \
     $(BUILD)/lib/libpongeye.a
-	@mkdir -p $$(@D)
-	$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
+	$$(begin)
+	$$(Q)$$(CXX) $$(LDFLAGS) $$^ $$(call libs,$$(PACKAGES_$(1))) $$(OPENCV_$(1)) -pthread -o $$@
 endef
 $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
 # Live calibration looks through the tracker's cameras.
 $(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
-	pairing.o)
+	pairing.o pulse_numbering.o)
 
 # The benchmark of calibration finds corners as calibration does.
 $(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)
 
 $(BUILD)/bin/pongeye-spy: tools/spy/pongeye-spy
-	@mkdir -p $(@D)
+	$(begin)
 	sed 's/@VERSION@/$(VERSION)/' $< >$@
 	chmod 755 $@
 
@@ -166,27 +171,27 @@ TEST_INCLUDES := -I. -Itools -I$(BUILD)/lcmtypes $(addprefix -iquote tools/,comm
 
 # Tests are compiled without much optimisation: more time goes into compiling than into running them.
 $(BUILD)/obj/tests/%.o: tests/%.cpp | $(LCM_HPP)
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -O1 $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -O1 $(TEST_INCLUDES) $(call cflags,$(TEST_PACKAGES) opencv4) -c $< -o $@
 
 $(BUILD)/obj/tests/%.o: tests/%.c
-	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+	$(begin)
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/tests/unit: $(UNIT_OBJECTS) $(TOOL_OBJECTS) $(COMMON_OBJECTS) $(BUILD)/lib/libpongeye.a
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,$(TEST_PACKAGES)) $(sort $(foreach name,$(PROGRAMS),$(OPENCV_$(name)))) \
 	    -lgtest -lgtest_main -pthread -o $@
 
 # Programs that the scripts use.
 $(BUILD)/tests/lcm_listener: $(BUILD)/obj/tests/sim/lcm_listener.o $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,lcm) -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,lcm) -o $@
 
 $(BUILD)/tests/gige_aravis: $(BUILD)/obj/tests/sim/test_gige_aravis.o \
     $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/simulate/gige/*.cpp)) $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
 
 SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
 
@@ -233,7 +238,7 @@ help:
 	@echo "  make tsan       the unit tests under ThreadSanitizer"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"
-	@echo "  CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler, another folder, warnings are errors"
+	@echo "  V=1 shows the commands; CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler and folder"
 
 sanitize: deps
 	$(MAKE) $(BUILD)-asan/tests/unit $(PROGRAMS:%=$(BUILD)-asan/bin/pongeye-%) \

@@ -24,6 +24,7 @@ const double diagonal = 0.7;  // where the diagonal points are, in half axes
 const int around_allowed = 2; // of eight points around the ball
 const int pixels_needed = 4;
 const double hull_lit_needed = 0.55; // of a convex hull
+const int hull_points_needed = 3;    // of five
 const double hull_longest = 1.5;     // its length over its width
 const size_t hull_rows = 512;        // the largest hull
 
@@ -250,7 +251,7 @@ bool measure_blob(const Patch &patch, const Area &area, double contrast, const B
 		if (lit.count < hull_lit_needed * hull.count)
 			return false;
 		ellipse = Ellipse(hull, area);
-		points_needed = 4;
+		points_needed = hull_points_needed;
 		if (!may_be_ball(ellipse, limits) || ellipse.major > hull_longest * ellipse.minor)
 			return false;
 	}

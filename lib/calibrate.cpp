@@ -251,7 +251,7 @@ void pong_calibrate_defaults(pong_profile profile, pong_calibrate_settings *sett
 {
 	*settings = {};
 	settings->profile = profile;
-	// Of no consequence for a perfect lens; with a real one the variance does a tenth better.
+	// With a real lens the variance does a tenth better, with a perfect one a tenth worse (docs/calibrate.md).
 	settings->normalisation = profile == PONG_PAPER ? PONG_NORMALISE_VARIANCE : PONG_NORMALISE_DEVIATION;
 	settings->aspect = 0.005;
 	settings->principal = 0.1;

@@ -17,12 +17,13 @@ namespace pong
 namespace
 {
 
-const double pixel_sigma = 0.3;     // of an epipolar distance, px
-const double bounce_sigma = 0.003;  // of a bounce's height as found by extrapolation, m
-const double rotation_sigma = 0.02; // of a knock before anything is known, rad
-const double loss = 3;              // Huber's threshold, in sigma
-const int around = 5;               // sightings on each side of a bounce that are looked at
-const double step = 1e-6;           // for derivatives, rad
+const double pixel_sigma = 0.3;      // of an epipolar distance, px
+const double alike = 4;              // a flight counts as so many sightings: its centres err alike, shaded alike
+const double bounce_sigma = 0.0015;  // of a bounce's height as found by extrapolation, m
+const double rotation_sigma = 0.002; // of a knock before anything is known: 0.11 degrees, rad
+const double loss = 3;               // Huber's threshold, in sigma
+const int around = 5;                // sightings on each side of a bounce that are looked at
+const double step = 1e-6;            // for derivatives, rad
 
 struct Miss {
 	double value, sigma;
@@ -115,10 +116,11 @@ Misses misses_of(const pong_rig &rig, const Flights &flights)
 {
 	Misses misses;
 	for (const auto &flight : flights) {
+		const double sigma = pixel_sigma * std::sqrt(std::max(1.0, static_cast<double>(flight.size()) / alike));
 		for (const pong_sighting &sighting : flight)
 			misses.epipolar.push_back(
 				{pong_epipolar_distance(rig.camera, sighting.uv[PONG_LEFT], sighting.uv[PONG_RIGHT]),
-				 pixel_sigma});
+				 sigma});
 		if (rig.table.present)
 			add_bounces(rig, flight, misses.bounces);
 	}

@@ -11,9 +11,8 @@ namespace pong
 const int cell_size = 4; // px
 const int cell_pixels = cell_size * cell_size;
 
-// The sums of `count` cells beside each other; `top` is the first one's upper left pixel. `ahead`, if not null, is
-// read soon: it is fetched on the way.
-void sum_cells(const uint8_t *top, ptrdiff_t stride, int count, const uint8_t *ahead, uint32_t *sums);
+// The sums of `count` cells beside each other; `top` is the first one's upper left pixel.
+void sum_cells(const uint8_t *top, ptrdiff_t stride, int count, uint32_t *sums);
 
 // now - gain * then of `count` cells, with gain in 1 / gain_one. Returns whether any lies outside of +- threshold.
 const int32_t gain_one = 4096;

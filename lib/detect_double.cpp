@@ -3,7 +3,8 @@
 // 1. Cells of 4 x 4 pixels are compared with the earlier picture's; where they differ by more than the noise, measured
 // in
 //    the pictures themselves, with the older one's too. Most of a picture ends here.
-// 2. Cells that lie outside of both, and touch, are one group.
+// 2. Cells that lie outside of both, and are neighbours but for one, are one group: a ball before a bright wall may be
+//    brighter than it above and darker below.
 // 3. A group is looked at close up, pixel by pixel. If what is lit there is a ball, it is one detection.
 // 4. A larger group may be a ball beside something else that moves. It is scanned for the five points.
 //
@@ -26,15 +27,15 @@ const double noise_factor = 4.5;  // a cell is lit from so many standard deviati
 const double contrast_part = 0.3; // and from this part of the least contrast of a ball
 const double noise_least = 0.25;  // of a cell's mean, grey levels: pictures are rounded
 const double noise_most = 4;
+const int reach = 2;            // cells of a group are so close to each other, in cells
 const int sampled_strips = 4;   // rows of cells that tell noise and gain
 const int sampled_cells = 64;   // of each
 const int close_margin = 6;     // a group is looked at with so many pixels around, px
 const double close_noise = 1.5; // the noise of a patch's 3 x 3 mean, over that of a cell's
-const int strips_ahead = 4;     // rows of cells that are fetched before they are read
 const int tries_most = 64;      // measurements of one large group
 const double larger = 1.5;      // groups this much larger than the largest ball are more than a ball
 
-// A group of cells that touch.
+// A group of cells close to each other.
 struct Group {
 	int columns[2], rows[2]; // first and last
 	double weight, weight2;  // sums of the cells' differences and of their squares
@@ -64,7 +65,7 @@ private:
 	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells);
 	void light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells);
 	void light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row, int begin,
-			 int count, const uint8_t *ahead[2]);
+			 int count);
 	Group take_group(int first);
 	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 		    const Conditions &conditions, pong_detection *found, int count, int capacity);
@@ -78,7 +79,7 @@ private:
 	int columns_, rows_; // of cells
 	std::vector<FivePoints> sizes_;
 	std::vector<Area> strips_;   // by row of cells: the columns of the region
-	std::vector<int32_t> lit_;   // by cell, with a border of one: how far outside of both, 0 if not lit
+	std::vector<int32_t> lit_;   // by cell, with a border: how far outside of both, 0 if not lit
 	std::vector<int> lit_cells_; // places in lit_, in the order of scan
 	std::vector<int> stack_;
 	std::vector<uint32_t> now_, earlier_; // one row of cells
@@ -90,7 +91,7 @@ DoubleDifference::DoubleDifference(const pong_region &region, const pong_setting
 	: region_(region), contrast_(settings.detect.contrast), columns_(region.width / cell_size),
 	  rows_(region.height / cell_size), sizes_(five_points_of(region)), patch_(region.width, region.height)
 {
-	const size_t cells = static_cast<size_t>(columns_ + 2) * static_cast<size_t>(rows_ + 2);
+	const size_t cells = static_cast<size_t>(columns_ + 2 * reach) * static_cast<size_t>(rows_ + 2 * reach);
 	lit_.resize(cells);
 	lit_cells_.reserve(cells);
 	stack_.reserve(cells);
@@ -140,7 +141,7 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 	for (int strip = 0; strip < strips; strip++) {
 		const int row = cells.v_begin + (2 * strip + 1) * (cells.v_end - cells.v_begin) / (2 * strips);
 		const auto sums = [&](const pong_image &image) {
-			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, nullptr, earlier_.data());
+			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, earlier_.data());
 			return earlier_.data();
 		};
 		const auto sample = [&](const uint32_t *in, int begin, uint32_t *out) {
@@ -160,16 +161,16 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 
 // Light the cells of one strip that lie outside of both earlier pictures.
 void DoubleDifference::light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row,
-				   int begin, int count, const uint8_t *ahead[2])
+				   int begin, int count)
 {
-	const auto sums = [&](const pong_image &image, const uint8_t *next, std::vector<uint32_t> &out) {
-		sum_cells(corner(image, begin, row), image.stride, count, next, out.data());
+	const auto sums = [&](const pong_image &image, std::vector<uint32_t> &out) {
+		sum_cells(corner(image, begin, row), image.stride, count, out.data());
 	};
-	sums(pictures.current, ahead[0], now_);
-	sums(pictures.earlier[0], ahead[1], earlier_);
+	sums(pictures.current, now_);
+	sums(pictures.earlier[0], earlier_);
 	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[0], threshold, count, to_then_.data()))
 		return;
-	sums(pictures.earlier[1], nullptr, earlier_);
+	sums(pictures.earlier[1], earlier_);
 	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[1], threshold, count, to_before_.data()))
 		return;
 	for (int i = 0; i < count; i++) {
@@ -177,7 +178,7 @@ void DoubleDifference::light_strip(const pong_pictures &pictures, const Gains &g
 		const int32_t beyond = (a > 0) == (b > 0) ? std::min(std::abs(a), std::abs(b)) : 0;
 		if (beyond <= threshold)
 			continue;
-		const int place = (row + 1) * (columns_ + 2) + begin + i + 1;
+		const int place = (row + reach) * (columns_ + 2 * reach) + begin + i + reach;
 		lit_[static_cast<size_t>(place)] = beyond;
 		lit_cells_.push_back(place);
 	}
@@ -194,23 +195,18 @@ void DoubleDifference::light_cells(const pong_pictures &pictures, const Conditio
 		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
 		if (strip.empty())
 			continue;
-		const bool more = row + strips_ahead < cells.v_end;
-		const uint8_t *ahead[2] = {more ? corner(pictures.current, strip.u_begin, row + strips_ahead) : nullptr,
-					   more ? corner(pictures.earlier[0], strip.u_begin, row + strips_ahead)
-						: nullptr};
-		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin,
-			    ahead);
+		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin);
 	}
 }
 
-// Collect the lit cells that touch the first one, and take them out.
+// Collect the lit cells close to the first one, and take them out.
 Group DoubleDifference::take_group(int first)
 {
-	const int stride = columns_ + 2;
+	const int stride = columns_ + 2 * reach;
 	Group group = {{columns_, -1}, {rows_, -1}, 0, 0};
 	const auto take = [&](int place) {
 		const double weight = lit_[static_cast<size_t>(place)];
-		const int column = place % stride - 1, row = place / stride - 1;
+		const int column = place % stride - reach, row = place / stride - reach;
 		lit_[static_cast<size_t>(place)] = 0;
 		group.columns[0] = std::min(group.columns[0], column);
 		group.columns[1] = std::max(group.columns[1], column);
@@ -224,9 +220,10 @@ Group DoubleDifference::take_group(int first)
 	while (!stack_.empty()) {
 		const int place = stack_.back();
 		stack_.pop_back();
-		for (const int step : {-stride - 1, -stride, -stride + 1, -1, 1, stride - 1, stride, stride + 1})
-			if (lit_[static_cast<size_t>(place + step)])
-				take(place + step);
+		for (int down = -reach; down <= reach; down++)
+			for (int right = -reach; right <= reach; right++)
+				if (lit_[static_cast<size_t>(place + down * stride + right)])
+					take(place + down * stride + right);
 	}
 	return group;
 }
@@ -284,10 +281,10 @@ int DoubleDifference::scan_five_points(const Area &area, double contrast, const 
 			for (const FivePoints &points : sizes_between(sizes_, limits.size_min, limits.size_max)) {
 				if (!match(points, u, v, lit))
 					continue;
-				const int reach = static_cast<int>(0.6 * points.size) + 1;
+				const int half = static_cast<int>(0.6 * points.size) + 1;
 				const int cu = u + points.centre.u, cv = v + points.centre.v;
-				const Area box = intersect(patch_.area(),
-							   {cu - reach, cu + reach + 1, cv - reach, cv + reach + 1});
+				const Area box =
+					intersect(patch_.area(), {cu - half, cu + half + 1, cv - half, cv + half + 1});
 				pong_detection ball;
 				if (tries-- == 0)
 					return count;

@@ -35,6 +35,7 @@ const int first_curved = 8;        // the first parameter of a shading term of s
 const double shading_prior = 1000; // standard deviations of the shading's coefficients, grey levels: of the zeroth and
 const double curved_prior = 20;    // first order, and of the second
 const double shading_error_part = 0.004; // of a radius: what shading that nine terms can't express does to the centre
+const double unexplained_allowed = 0.5;  // of the difference to the background
 const double variance_least = 0.05;
 
 // The plane about a ray: pixels of a camera without distortion that looks along it.
@@ -274,6 +275,12 @@ public:
 		return now_;
 	}
 
+	// Whether the sphere explains most of what tells the ball from its background.
+	bool explains() const
+	{
+		return unexplained_ < unexplained_allowed * different_;
+	}
+
 	// Of the centre in the plane.
 	Matrix2 covariance() const
 	{
@@ -287,6 +294,7 @@ private:
 	{
 		double normal[sphere_normal_size] = {}, right[sphere_parameters] = {};
 		double sum = 0, count = 0;
+		unexplained_ = different_ = 0;
 		for (int b = 0; b < pixels_.count; b++) {
 			render_sphere(now_, streak_, &pixels_.blocks[b]);
 			float residual[block], weight[block];
@@ -298,7 +306,12 @@ private:
 				if (robust)
 					weight[i] /= 1 + excess * excess;
 				sum += weight[i] * residual[i] * residual[i];
-				count += pixels_.weight[b][i] > 0;
+				if (pixels_.weight[b][i] > 0) {
+					const float new_level = pixels_.now[b][i] - pixels_.blocks[b].background[i];
+					unexplained_ += std::abs(residual[i]);
+					different_ += std::abs(new_level);
+					count++;
+				}
 			}
 			add_normal_equations(pixels_.blocks[b], weight, residual, normal, right);
 		}
@@ -336,7 +349,8 @@ private:
 	Normal normal_;
 	Parameters right_;
 	Eigen::LDLT<Normal> solver_;
-	double variance_ = 1; // of the residuals, over what the sensor's noise would make it
+	double unexplained_ = 0, different_ = 0; // sums of magnitudes, grey levels
+	double variance_ = 1;                    // of the residuals, over what the sensor's noise would make it
 };
 
 } // namespace
@@ -355,6 +369,8 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 	SphereFit fit(pixels, layout.streak(), radius);
 	if (!fit.run())
 		return true; // the edges stand
+	if (!fit.explains())
+		return false;
 	SphereParameters found = fit.parameters();
 	const Vector2 place(found.u(), found.v());
 	const Vector2 uv = plane.to_pixel(camera, place);

@@ -17,6 +17,7 @@ namespace
 {
 
 const int confirmed = 3;             // points that make a second flight believed
+const double gone = 0.1;             // a flight not seen for so long needs no such proof against it, s
 const double expected_sigma = 0.015; // what no covariance knows of where a ball is expected, m
 const double surprise = 25;          // squared normalised distance of a point that is not the expected ball
 
@@ -159,7 +160,8 @@ pong_track_event push_other(pong_track &track, const pong_point &point)
 	if (other.count() > 0 && !fits(track, other, point))
 		other.clear();
 	other.add(point, track.rig);
-	if (other.count() < confirmed || prefer_flight(track))
+	const bool unseen = seconds(track.flight->last().utime, point.utime) > gone;
+	if (other.count() < (unseen ? 1 : confirmed) || prefer_flight(track))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();

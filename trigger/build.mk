@@ -1,11 +1,12 @@
 # pongeye-trigger, its firmware and their tests; included by the top Makefile.
 #   make firmware        build/firmware/pongeye-trigger.hex, for the ATmega32U4
 #   make flash           write it (press the board's reset first); PORT=/dev/ttyACM0
-#   make test-trigger    the firmware in simavr, and pongeye-trigger against it
+#   make test-trigger    the firmware in simavr, pongeye-trigger against it, and the tracker triggered by both
 #   make test-hil        pongeye-trigger in a virtual machine, with Debian's kernel, GPIO lines and USB
 
 TRIGGER_DEBIAN_PACKAGES := gcc-avr avr-libc libsimavr-dev libelf-dev libumockdev-dev umockdev libgtest-dev \
-	libusb-1.0-0-dev libgpiod-dev liblcm-dev liblcm-bin pkg-config
+	libusb-1.0-0-dev libgpiod-dev liblcm-dev liblcm-bin libeigen3-dev libtomlplusplus-dev libopencv-dev \
+	libaravis-dev iproute2 util-linux pkg-config
 
 # --- The program. libgpiod's version decides which of two files speaks to it.
 
@@ -19,15 +20,15 @@ all: $(BUILD)/bin/pongeye-trigger
 
 .SECONDARY: $(LCM_HPP)
 $(BUILD)/obj/trigger/%.o: trigger/%.cpp | $(LCM_HPP)
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itrigger \
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I$(BUILD)/lcmtypes -Itools/common -Itrigger \
 	    $(call cflags,$(TRIGGER_PACKAGES)) -c $< -o $@
 
 # Which objects it needs is asked only now, after libgpiod may have been installed.
 .SECONDEXPANSION:
 $(BUILD)/bin/pongeye-trigger: $(BUILD)/obj/trigger/main.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -pthread -o $@
 
 # --- The firmware
 
@@ -39,8 +40,8 @@ FIRMWARE_SOURCES := $(wildcard trigger/firmware/*.c)
 firmware: $(FIRMWARE).hex
 
 $(FIRMWARE).elf: $(FIRMWARE_SOURCES) $(wildcard trigger/firmware/*.h) trigger/protocol.h
-	@mkdir -p $(@D)
-	avr-gcc $(AVR_CFLAGS) -Wl,--gc-sections $(FIRMWARE_SOURCES) -o $@
+	$(begin)
+	$(Q)avr-gcc $(AVR_CFLAGS) -Wl,--gc-sections $(FIRMWARE_SOURCES) -o $@
 	avr-size $@
 
 $(FIRMWARE).hex: $(FIRMWARE).elf
@@ -60,35 +61,45 @@ TRIGGER_TEST_PROGRAMS := $(TRIGGER_TESTS:%=$(BUILD)/tests/trigger/test_%)
 EMULATED_CLOCK := $(BUILD)/tests/trigger/emulated_clock.so
 
 $(BUILD)/obj/tests/trigger/%.o: tests/trigger/%.cpp | $(LCM_HPP)
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -I$(BUILD)/lcmtypes -Itools/common $(call cflags,umockdev-1.0 lcm) -c $< -o $@
 
 trigger_test_objects = $(patsubst %,$(BUILD)/obj/tests/trigger/%.o,$(1))
 $(BUILD)/tests/trigger/test_firmware: $(call trigger_test_objects,test_firmware test_firmware_usb board)
 $(BUILD)/tests/trigger/test_parts: $(BUILD)/obj/tests/trigger/test_parts.o $$(TRIGGER_OBJECTS) $(COMMON_OBJECTS)
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,$(TRIGGER_PACKAGES)) -lgtest -lgtest_main -pthread -o $@
 
 $(BUILD)/tests/trigger/test_pwm: $(call trigger_test_objects,test_pwm child)
 $(BUILD)/tests/trigger/test_usb: $(call trigger_test_objects,test_usb board usbfs child)
 $(BUILD)/tests/trigger/test_firmware $(BUILD)/tests/trigger/test_usb $(BUILD)/tests/trigger/test_pwm:
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0 lcm) -lgtest -pthread -o $@
+
+$(BUILD)/tests/trigger/live_board: $(call trigger_test_objects,live_board board usbfs child)
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf $(call libs,umockdev-1.0) -o $@
+
+# What tests/trigger/together.sh runs.
+TOGETHER := $(BUILD)/tests/trigger/live_board $(BUILD)/tests/lcm_listener $(BUILD)/bin/pongeye-simulate \
+	$(BUILD)/bin/pongeye-track
 
 $(EMULATED_CLOCK): tests/trigger/emulated_clock.c tests/trigger/emulated_clock.h
-	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
+	$(begin)
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -fvisibility=default -shared $< -o $@
 
 .PHONY: test-trigger
 test-trigger:
 	@$(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(TRIGGER_DEBIAN_PACKAGES)"
-	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK)
+	@$(MAKE) --no-print-directory $(FIRMWARE).hex $(BUILD)/bin/pongeye-trigger $(TRIGGER_TEST_PROGRAMS) $(EMULATED_CLOCK) \
+	    $(TOGETHER)
 	@! ldd $(BUILD)/bin/pongeye-trigger | grep simavr
 	$(BUILD)/tests/trigger/test_parts
 	$(BUILD)/tests/trigger/test_firmware $(FIRMWARE).elf
 	umockdev-wrapper $(BUILD)/tests/trigger/test_usb $(FIRMWARE).elf $(BUILD)/bin/pongeye-trigger \
 	    $(abspath $(EMULATED_CLOCK))
 	umockdev-wrapper $(BUILD)/tests/trigger/test_pwm $(BUILD)/bin/pongeye-trigger
+	BUILD=$(BUILD) tests/trigger/together.sh
 
 # --- Emulated hardware: Debian's kernel in QEMU, with gpio-sim for lines and a board in simavr for USB.
 
@@ -118,12 +129,12 @@ define with_libgpiod2
 endef
 
 $(BUILD)/obj/tests/hil/%.o: tests/hil/%.cpp
-	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
+	$(begin)
+	$(Q)$(CXX) $(CPPFLAGS) $(CXXFLAGS) -I. -c $< -o $@
 
 $(HIL)/usbip_device: $(BUILD)/obj/tests/hil/usbip_device.o $(BUILD)/obj/tests/trigger/board.o
-	@mkdir -p $(@D)
-	$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -o $@
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ -lsimavr -lelf -o $@
 
 $(HIL)/initrd.gz: $(HIL)/kernel/vmlinuz $(FIRMWARE).elf $$(HIL_PROGRAMS) $(HIL)/usbip_device $(wildcard tests/hil/guest-*) \
     tests/hil/make-initrd

@@ -15,6 +15,7 @@ namespace
 
 struct Heard {
 	int balls = 0, predictions = 0, statuses = 0, insane = 0;
+	int64_t missed_left = 0, missed_right = 0; // by the last status
 	int64_t last_ball = 0, last_frame = 0;
 };
 
@@ -55,6 +56,8 @@ public:
 	{
 		heard.statuses++;
 		heard.insane += !(status->pairs >= status->balls);
+		heard.missed_left = status->missed_left;
+		heard.missed_right = status->missed_right;
 	}
 
 	Heard heard;
@@ -77,5 +80,7 @@ int main(int argc, char **argv)
 		lcm.handleTimeout(100);
 	printf("balls %d\npredictions %d\nstatuses %d\ninsane %d\n", listener.heard.balls, listener.heard.predictions,
 	       listener.heard.statuses, listener.heard.insane);
+	printf("missed_left %lld\nmissed_right %lld\n", static_cast<long long>(listener.heard.missed_left),
+	       static_cast<long long>(listener.heard.missed_right));
 	return 0;
 }

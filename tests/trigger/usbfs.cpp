@@ -56,6 +56,7 @@ int Usbfs::on_ioctl(UMockdevIoctlBase *, UMockdevIoctlClient *client, void *self
 void Usbfs::answer(UMockdevIoctlClient *client)
 {
 	UMockdevIoctlData *argument = umockdev_ioctl_client_get_arg(client);
+	on_request();
 	int error = 0;
 	switch (static_cast<unsigned>(umockdev_ioctl_client_get_request(client))) {
 	case USBDEVFS_GET_CAPABILITIES: {

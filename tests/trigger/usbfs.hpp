@@ -22,7 +22,8 @@ public:
 	// Every request from now on fails as after a pull of the cable.
 	void unplug();
 
-	std::function<void()> on_time = [] {}; // whenever emulated time has passed
+	std::function<void()> on_request = [] {}; // before a request is looked at
+	std::function<void()> on_time = [] {};    // whenever emulated time has passed
 	std::function<void(const ControlRequest &, uint8_t *)> on_reply = [](auto &, auto *) {}; // may change a reply
 
 private:

@@ -268,8 +268,8 @@ Knock knock()
 	pong::TrueRig rig = pong::true_rig(0);
 	Knock result = {};
 	for (pong_rig *each : {&result.truth, &result.knocked}) {
-		each->ball = {0.040, 0.0027, 0.50, 1.2, {0.8, -0.96, 0.8}};
-		each->table = {1, 2.74, 1.525};
+		each->ball.diameter = 0.040;
+		each->table.present = 1;
 		for (int side = 0; side < 2; side++)
 			each->camera[side] = as_camera(rig.camera[side]);
 	}

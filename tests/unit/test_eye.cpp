@@ -163,6 +163,21 @@ TEST_P(Eye, LosesTheBallAndFindsTheNextOne)
 	}
 }
 
+TEST_P(Eye, FindsANewBallAtOnceWhereTheOldOneIsGone)
+{
+	Scene scene(GetParam());
+	for (int i = 0; i < 3; i++)
+		scene.push(false);
+	scene.restart();
+	for (int i = 0; i < 12; i++)
+		scene.push(true);
+	for (int i = 0; i < 14; i++)
+		scene.push(false);
+	scene.restart();
+	EXPECT_EQ(scene.push(true), PONG_FOUND);
+	EXPECT_EQ(scene.sight.ball.track, 2);
+}
+
 TEST_P(Eye, SeesNothingWhereNothingMoves)
 {
 	Scene scene(GetParam());

@@ -82,3 +82,35 @@ TEST(GigeLine, TheWorldGoesOnWithoutPulses)
 	EXPECT_EQ(line.number_at(7000), 1);
 	EXPECT_EQ(line.number_at(7000 + 1000000000), 101);
 }
+
+TEST(GigeLine, EdgesFromOutsideAreItsPulses)
+{
+	TriggerLine line(100, 0);
+	line.connect_outside();
+	EXPECT_FALSE(line.next(0).has_value());
+	line.add_edge(5000);
+	line.add_edge(12000);
+	line.add_edge(31000);
+	EXPECT_EQ(line.next(0)->number, 1);
+	EXPECT_EQ(line.next(5001)->number, 2);
+	EXPECT_EQ(line.next(5001)->time, 12000);
+	EXPECT_FALSE(line.next(31001).has_value());
+	EXPECT_EQ(line.take(20000)->number, 1);
+	EXPECT_EQ(line.take(20000)->time, 12000);
+	EXPECT_FALSE(line.take(20000).has_value());
+	EXPECT_EQ(line.next_time(), 31000);
+}
+
+TEST(GigeLine, OldEdgesFromOutsideAreForgotten)
+{
+	TriggerLine line(100, 0);
+	line.connect_outside();
+	for (int64_t number = 1; number <= 1000; number++) {
+		line.add_edge(number * 1000);
+		EXPECT_EQ(line.take(number * 1000)->number, number);
+	}
+	const auto oldest = line.next(0);
+	ASSERT_TRUE(oldest.has_value());
+	EXPECT_EQ(oldest->time, oldest->number * 1000);
+	EXPECT_EQ(line.next(999001)->number, 1000);
+}

@@ -65,7 +65,7 @@ TEST(TrackStatus, CountsOutcomesAndRates)
 	Dropped dropped;
 	dropped.unpaired = 2;
 	dropped.incomplete = 3;
-	status.close_second(2 * SECOND, dropped);
+	status.close_second(2 * SECOND, dropped, {});
 	EXPECT_EQ(status.report().pairs, 41);
 	EXPECT_EQ(status.report().outcomes[PONG_SEEN], 30);
 	EXPECT_EQ(status.report().outcomes[PONG_NOTHING], 10);
@@ -82,14 +82,14 @@ TEST(TrackStatus, RatesAndLatencyAreOfTheLastSecond)
 	Status status(0);
 	for (int i = 0; i < 100; i++)
 		status.count(sight_of(PONG_SEEN), 1);
-	status.close_second(SECOND, {});
+	status.close_second(SECOND, {}, {});
 	for (int i = 0; i < 10; i++)
 		status.count(sight_of(PONG_SEEN), 1e-3);
-	status.close_second(2 * SECOND, {});
+	status.close_second(2 * SECOND, {}, {});
 	EXPECT_DOUBLE_EQ(status.report().pair_rate, 10);
 	EXPECT_EQ(status.report().pairs, 110);
 	EXPECT_DOUBLE_EQ(status.report().latency_max, 1e-3);
-	status.close_second(3 * SECOND, {});
+	status.close_second(3 * SECOND, {}, {});
 	EXPECT_TRUE(std::isnan(status.report().latency_median));
 }
 
@@ -101,9 +101,21 @@ TEST(TrackStatus, SummaryNamesEveryCause)
 	dropped.unpaired = 1;
 	dropped.incomplete = 2;
 	dropped.late = 4;
-	EXPECT_EQ(status.summary(dropped),
+	EXPECT_EQ(status.summary(dropped, {}),
 		  "1 pairs, 1 with a ball; 7 pictures dropped (1 without a partner, 2 incomplete, 4 too late, "
 		  "0 out of order); latency median 2.00 ms, p99 2.00 ms, max 2.00 ms");
+	EXPECT_NE(status.summary(dropped, {50, {3, 4}})
+			  .find("; 50 trigger pulses heard, missed by the left camera 3, by the right 4; latency"),
+		  std::string::npos);
+}
+
+TEST(TrackStatus, ReportsMissedTriggers)
+{
+	Status status(0);
+	status.close_second(SECOND, {}, {50, {3, 4}});
+	EXPECT_EQ(status.report().missed_left, 3);
+	EXPECT_EQ(status.report().missed_right, 4);
+	EXPECT_EQ(status.report().dropped, 0) << "they never were pictures";
 }
 
 } // namespace

@@ -121,9 +121,14 @@ void run_conditions(const Conditions &conditions, int boards, int seeds)
 			volume += 1e3 * off;
 			done++;
 		}
-		printf("%.2f %.2f %.1f %.1f %s %.4f %.3f %d\n", conditions.noise, conditions.k1,
-		       1e3 * conditions.placement, 1e3 * conditions.tilt, method.name, pixels / done, volume / done,
-		       seeds - done);
+		if (pong::stop_requested())
+			return;
+		printf("%.2f %.2f %.1f %.1f %s ", conditions.noise, conditions.k1, 1e3 * conditions.placement,
+		       1e3 * conditions.tilt, method.name);
+		if (done)
+			printf("%.4f %.3f %d\n", pixels / done, volume / done, seeds - done);
+		else
+			printf("- - %d\n", seeds);
 		fflush(stdout);
 	}
 }
@@ -207,6 +212,34 @@ void run_pictures(const std::string &left, const std::string &right, const calib
 		print_held_out("cv-stereoCalibrate", recording, check, camera);
 }
 
+// How far apart two rigs put what one of them sees: points over the table, m.
+void compare_rigs(const std::string &truth_path, const std::string &rig_path)
+{
+	pong_rig truth, rig;
+	pong_error error;
+	if (pong_rig_load(truth_path.c_str(), &truth, &error) < 0 || pong_rig_load(rig_path.c_str(), &rig, &error) < 0)
+		throw pong::Failure(error.text);
+	double sum = 0, worst = 0;
+	int count = 0;
+	for (const Eigen::Vector3d &position : pong::table_volume()) {
+		double uv[2][2], found[3];
+		bool seen = true;
+		for (int side = 0; side < 2; side++) {
+			const pong_camera &camera = truth.camera[side];
+			seen = seen && pong_project(&camera, position.data(), uv[side]) == PONG_FOUND &&
+			       uv[side][0] >= 0 && uv[side][1] >= 0 && uv[side][0] < camera.width &&
+			       uv[side][1] < camera.height;
+		}
+		if (!seen || pong_triangulate(rig.camera, uv[PONG_LEFT], uv[PONG_RIGHT], found) != PONG_FOUND)
+			continue;
+		const double off = 1e3 * (Eigen::Vector3d(found) - position).norm();
+		sum += off;
+		worst = std::max(worst, off);
+		count++;
+	}
+	printf("# places mean_mm worst_mm\n%d %.3f %.3f\n", count, sum / count, worst);
+}
+
 const char example[] =
 	"  $ pongeye-bench calibration --seeds 5\n"
 	"  $ pongeye-bench calibration --left 'b/*-left.png' --right 'b/*-right.png' --board 9x6 --square 0.025";
@@ -216,7 +249,7 @@ const char example[] =
 int calibration(int argc, char **argv)
 {
 	int seeds = 10, boards = 20;
-	std::string left, right, size;
+	std::string left, right, size, truth, rig;
 	calibrate::BoardSize board = {};
 	pong::Options options("pongeye-bench calibration",
 			      "Compare calibrations on simulated corners (the paper's Fig. 9), or on pictures; failed: "
@@ -229,8 +262,16 @@ int calibration(int argc, char **argv)
 	options.text("--right", "PATTERN", "and of the right camera", &right);
 	options.text("--board", "COLSxROWS", "inner corners of the board in the pictures", &size);
 	options.number("--square", "METRES", "side of its squares, m", &board.square, 0.001, 10);
+	options.text("--truth", "RIG", "compare rigs instead: points that this rig.toml sees", &truth);
+	options.text("--rig", "RIG", "are reconstructed by this one", &rig);
 	if (!options.parse(argc, argv))
 		return 0;
+	if (truth.empty() != rig.empty())
+		throw pong::UsageError("--truth and --rig belong together");
+	if (!truth.empty()) {
+		compare_rigs(truth, rig);
+		return 0;
+	}
 	if (left.empty()) {
 		run_figure(boards, seeds);
 		return 0;

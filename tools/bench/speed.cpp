@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "rivals.hpp"
+#include "opencv_way.hpp"
 #include "studio.hpp"
 
 namespace

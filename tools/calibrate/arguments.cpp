@@ -13,10 +13,14 @@ namespace calibrate
 namespace
 {
 
-const char example[] = "  $ pongeye-calibrate --board 9x6 --square 0.025 --left b/*-left.png --right b/*-right.png \\\n"
-		       "        --flat 000000 --flat-at 0,0.61,0 --output rig.toml --report calibration.html\n"
-		       "  20 of 20 pairs are used\n"
-		       "  rms 0.12 px; expected 3-D error over the table 1.1 mm in the mean, 3.0 mm at most";
+const char example[] =
+	"  $ pongeye-simulate --scene board --seed 1 --out b\n"
+	"  $ pongeye-calibrate --board 9x6 --square 0.025 --left b/*-left.png --right b/*-right.png \\\n"
+	"        --flat 000000 --flat-at 0,0.76,0 --flat-sigma 0.0002,0.001 --output rig.toml >pairs.txt\n"
+	"  looking for boards: 40 of 40 pictures\n"
+	"  20 of 20 pairs are used\n"
+	"  rms 0.0882 px; squares measure 25.000 mm, are 25.000 mm (+0.001 %)\n"
+	"  expected 3-D error 2.45 mm in the mean, 8.29 mm at most, over the 49 % of the volume in view";
 
 // Take the values of an option that may have many out of argv: everything up to the next option. A pattern that no
 // shell has expanded is expanded here.

@@ -84,6 +84,7 @@ std::string colour(double error)
 }
 
 // The mean over the places that lie on top of each other when axis `across` is right and `up` is up.
+// Seen from above the robot stands below, and x runs to its left.
 std::string error_map(const Volume &volume, size_t across, size_t up, const char *title)
 {
 	struct Cell {
@@ -112,13 +113,14 @@ std::string error_map(const Volume &volume, size_t across, size_t up, const char
 	std::string svg =
 		format("<svg viewBox='0 0 680 %.0f'><text x='0' y='18' font-size='16'>%s</text>", height, title);
 	for (const Cell &cell : cells) {
-		const double x = 60 + (cell.a - low[0]) * scale, y = 60 + (high[1] - cell.b) * scale;
+		const double from_left = across == 0 ? high[0] - cell.a : cell.a - low[0];
+		const double x = 60 + from_left * scale, y = 60 + (high[1] - cell.b) * scale;
 		const double error = cell.count ? cell.sum / cell.count : NAN;
 		svg += format(
 			"<rect x='%.1f' y='%.1f' width='46' height='26' rx='4' fill='%s'/><text x='%.1f' y='%.1f' "
-			"font-size='12' text-anchor='middle'>%s</text>",
+			"font-size='12' text-anchor='middle'>%s<title>%.2f, %.2f m</title></text>",
 			x - 23, y - 13, colour(error).c_str(), x, y + 4,
-			cell.count ? format("%.1f", error).c_str() : "-");
+			cell.count ? format("%.1f", error).c_str() : "-", cell.a, cell.b);
 	}
 	return svg + "</svg>";
 }
@@ -130,8 +132,8 @@ void write_volume(std::ofstream &page, const Volume &volume, const std::vector<A
 	page << format("<h2>Expected 3-D error</h2><p>From the calibration alone, root mean square, mm: <b>%.2f in the "
 		       "mean, %.2f at most</b>, over the %.0f %% of the volume that both cameras see.</p>",
 		       volume.mean, volume.worst, 100 * volume.seen)
-	     << "<div class=maps>" << error_map(volume, 0, 2, "From above: x to the right, z up")
-	     << error_map(volume, 2, 1, "From the side: z to the right, y up") << "</div>";
+	     << "<div class=maps>" << error_map(volume, 0, 2, "From above, the robot below: x to the left, z up, m")
+	     << error_map(volume, 2, 1, "From the side, the robot on the left: z to the right, y up, m") << "</div>";
 	if (advice.empty())
 		return;
 	page << "<p>One more board would help most:</p><ul>";

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "folder.hpp"
 #include "live.hpp"
@@ -13,7 +14,7 @@ namespace
 {
 
 struct Request {
-	std::string folder, scene = "rally", truth, rig;
+	std::string folder, scene = "rally", truth, rig, trigger_line, miss;
 	bool cameras = false, list_scenes = false;
 	int seed = 1, flights = 0, frames = 0;
 	double rate = 110;
@@ -48,6 +49,10 @@ pong::Options options(Request *request)
 	options.text("--truth", "FILE|-", "write the true positions here, as the cameras expose (with --cameras)",
 		     &request->truth);
 	options.text("--rig", "FILE", "write the true rig.toml here (with --cameras)", &request->rig);
+	options.text("--trigger-line", "PATH",
+		     "expose at the edges that come to this socket, which is made, at --rate (with --cameras)",
+		     &request->trigger_line);
+	options.text("--miss", "CAMERA:N", "left or right misses every N-th trigger (with --cameras)", &request->miss);
 	return options;
 }
 
@@ -63,6 +68,8 @@ void check(const Request &request)
 		throw pong::UsageError("one of --out and --cameras is needed, not both");
 	if (!request.cameras && (!request.truth.empty() || !request.rig.empty()))
 		throw pong::UsageError("--truth and --rig go with --cameras; --out writes both into its folder");
+	if (!request.cameras && (!request.trigger_line.empty() || !request.miss.empty()))
+		throw pong::UsageError("--trigger-line and --miss go with --cameras");
 }
 
 // How many frames the request asks for; 0: no end.
@@ -82,6 +89,28 @@ int64_t frames_of(const Request &request, const sim::Scene &scene)
 	return request.frames ? std::min<int64_t>(request.frames, frames) : frames;
 }
 
+// "right:10": that camera misses every tenth trigger.
+void inject(const std::string &miss, gige::ServerSettings &settings)
+{
+	char side[6];
+	int every, end = 0;
+	const bool is_good = sscanf(miss.c_str(), "%5[a-z]:%d%n", side, &every, &end) == 2 && miss[end] == '\0';
+	const bool is_left = is_good && strcmp(side, "left") == 0;
+	if (!is_good || every < 2 || !(is_left || strcmp(side, "right") == 0))
+		throw pong::UsageError("--miss " + miss + ": it takes left:N or right:N, N at least 2");
+	settings.cameras[is_left ? 0 : 1].miss_every = every;
+}
+
+void say_counts(const gige::Server &server)
+{
+	const char *const names[] = {"left", "right"};
+	for (int camera = 0; camera < 2; camera++) {
+		const gige::CameraCounts counts = server.counts(camera);
+		pong::say(pong::format("%s camera: %lld pictures sent, %lld triggers missed as told", names[camera],
+				       static_cast<long long>(counts.pictures), static_cast<long long>(counts.missed)));
+	}
+}
+
 void serve_cameras(const Request &request, const sim::Scene &scene, int64_t frames)
 {
 	if (!request.rig.empty())
@@ -93,10 +122,15 @@ void serve_cameras(const Request &request, const sim::Scene &scene, int64_t fram
 	settings.height = scene.rig.height;
 	settings.rate = request.rate;
 	settings.exposure = scene.picture.exposure;
+	settings.trigger_socket = request.trigger_line;
+	if (!request.miss.empty())
+		inject(request.miss, settings);
 	gige::Server server(settings, world);
 	pong::say(pong::format("cameras on 127.0.0.1 (left) and 127.0.0.2 (right), %g pulses a second, scene %s",
 			       request.rate, request.scene.c_str()));
 	server.run(frames);
+	if (!request.miss.empty() || !request.trigger_line.empty())
+		say_counts(server);
 }
 
 int simulate(int argc, char **argv)

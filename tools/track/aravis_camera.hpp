@@ -58,6 +58,11 @@ public:
 		return incomplete_;
 	}
 
+	int64_t exposure_ns() const
+	{
+		return exposure_ns_;
+	}
+
 	// Pictures that were not taken.
 	int64_t late() const
 	{

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "aravis_camera.hpp"
 #include "clock.hpp"
@@ -100,8 +101,9 @@ private:
 class CameraSource : public Source
 {
 public:
-	CameraSource(const pong_rig &rig, const CaptureSettings &settings)
-		: pairing_(settings.rate, [this](pong_side side, const Picture &picture) { give_back(side, picture); })
+	CameraSource(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear)
+		: pairing_(settings.rate, [this](pong_side side, const Picture &picture) { give_back(side, picture); }),
+		  hear_(std::move(hear))
 	{
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			cameras_[side] = std::make_unique<Camera>(side, rig.camera[side], settings,
@@ -140,7 +142,8 @@ public:
 		if (!has_pair_)
 			return Next::NOTHING_YET;
 		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
-		pair = {pair_.utime, pair_.frame, image_of(left.buffer), image_of(right.buffer),
+		const int64_t frame = numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
+		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
 			std::max(left.arrival_ns, right.arrival_ns)};
 		return Next::PAIR;
 	}
@@ -156,6 +159,11 @@ public:
 		return dropped;
 	}
 
+	Pulses pulses() const override
+	{
+		return {numbering_.heard(), {numbering_.missed(PONG_LEFT), numbering_.missed(PONG_RIGHT)}};
+	}
+
 private:
 	// Both at once: a lost camera is waited for by Aravis, for 6 s.
 	void end_cameras()
@@ -169,13 +177,29 @@ private:
 	void receive()
 	{
 		Mailbox::Letter letter;
-		if (mailbox_.take(letter, PATIENCE)) {
+		const bool received = mailbox_.take(letter, PATIENCE);
+		hear_pulses();
+		if (received) {
 			heard_ns_[letter.side] = monotonic_ns();
 			told_[letter.side] = false;
+			numbering_.see(letter.side, exposure_begin(letter.side, letter.picture.utime));
 			pairing_.push(letter.side, letter.picture);
 		}
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			check_camera(side);
+	}
+
+	void hear_pulses()
+	{
+		for (TriggerPulse pulse; hear_ && hear_(pulse);)
+			numbering_.hear(pulse);
+		numbering_.pass_time(unix_ns() / 1000);
+	}
+
+	// The trigger's edge, for a picture whose middle of the exposure was at `utime`.
+	int64_t exposure_begin(pong_side side, int64_t utime) const
+	{
+		return utime - cameras_[side]->exposure_ns() / 2000;
 	}
 
 	// Whether pictures still come, and if not, why.
@@ -209,6 +233,8 @@ private:
 	Mailbox mailbox_;                                // outlives the cameras, which put pictures into it
 	std::array<std::unique_ptr<Camera>, 2> cameras_; // by pong_side
 	Pairing pairing_;
+	HearPulse hear_;
+	PulseNumbering numbering_;
 	PicturePair pair_; // lent to the caller
 	bool has_pair_ = false;
 	int64_t heard_ns_[2];           // by pong_side: when the last picture came
@@ -232,10 +258,10 @@ void check_ids(const pong_rig &rig)
 
 } // namespace
 
-std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings)
+std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear)
 {
 	check_ids(rig);
-	return std::make_unique<CameraSource>(rig, settings);
+	return std::make_unique<CameraSource>(rig, settings, std::move(hear));
 }
 
 } // namespace track

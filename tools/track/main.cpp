@@ -15,6 +15,7 @@
 #include "program.hpp"
 #include "publisher.hpp"
 #include "status.hpp"
+#include "trigger_listener.hpp"
 
 namespace track
 {
@@ -67,11 +68,22 @@ pong_rig load_rig(const std::string &path)
 	return rig;
 }
 
-std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &rig)
+// The trigger is listened to on the bus that is published on.
+std::unique_ptr<TriggerListener> open_listener(const Arguments &arguments, const Sinks &sinks)
+{
+	if (!arguments.images.empty() || !sinks.publisher || !TriggerListener::can_hear(sinks.publisher->url()))
+		return nullptr;
+	return std::make_unique<TriggerListener>(sinks.publisher->url());
+}
+
+std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &rig, TriggerListener *listener)
 {
 	if (!arguments.images.empty())
 		return open_images(arguments.images, arguments.fps);
-	return open_cameras(rig, load_capture_settings(arguments.rig));
+	const CaptureSettings settings = load_capture_settings(arguments.rig);
+	if (!listener || settings.trigger.empty())
+		return open_cameras(rig, settings);
+	return open_cameras(rig, settings, [listener](TriggerPulse &pulse) { return listener->take(pulse); });
 }
 
 Sinks open_sinks(const Arguments &arguments)
@@ -118,7 +130,7 @@ void keep_time(const Source &source, Session &session)
 	Status &status = session.status;
 	const int64_t now_ns = monotonic_ns();
 	if (status.second_over(now_ns)) {
-		status.close_second(now_ns, source.dropped());
+		status.close_second(now_ns, source.dropped(), source.pulses());
 		if (sinks.publisher)
 			sinks.publisher->publish(status.report());
 	}
@@ -155,11 +167,12 @@ int run(int argc, char **argv)
 	const pong_rig rig = load_rig(arguments.rig);
 	Eye eye = open_eye(rig, arguments);
 	Sinks sinks = open_sinks(arguments);
-	const std::unique_ptr<Source> source = open_source(arguments, rig);
+	const std::unique_ptr<TriggerListener> listener = open_listener(arguments, sinks);
+	const std::unique_ptr<Source> source = open_source(arguments, rig, listener.get());
 	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
 	track_ball(*source, session);
 	session.sinks.live.reset();
-	pong::say(session.status.summary(source->dropped()));
+	pong::say(session.status.summary(source->dropped(), source->pulses()));
 	return 0;
 }
 

@@ -61,15 +61,14 @@ void check_multicast_route(const std::string &url)
 
 } // namespace
 
-Publisher::Publisher(const std::string &url)
+Publisher::Publisher(const std::string &url) : url_(url_or_default(url))
 {
-	const std::string chosen = url_or_default(url);
-	if (chosen.find("://") == std::string::npos)
-		throw pong::Failure("LCM URL " + chosen + ": it has no provider, such as udpm:// or memq://");
-	check_multicast_route(chosen);
-	lcm_ = std::make_unique<lcm::LCM>(chosen);
+	if (url_.find("://") == std::string::npos)
+		throw pong::Failure("LCM URL " + url_ + ": it has no provider, such as udpm:// or memq://");
+	check_multicast_route(url_);
+	lcm_ = std::make_unique<lcm::LCM>(url_);
 	if (!lcm_->good())
-		throw pong::Failure("LCM URL " + chosen + ": LCM cannot open it");
+		throw pong::Failure("LCM URL " + url_ + ": LCM cannot open it");
 	prediction_.path_utime.reserve(PONG_PATH_CAPACITY);
 	prediction_.path_position.reserve(PONG_PATH_CAPACITY);
 }
@@ -158,6 +157,8 @@ void Publisher::publish(const StatusReport &report)
 	status_.one_eyed = report.outcomes[PONG_ONE_EYED];
 	status_.mismatched = report.outcomes[PONG_MISMATCH];
 	status_.rejected = report.outcomes[PONG_REJECTED];
+	status_.missed_left = report.missed_left;
+	status_.missed_right = report.missed_right;
 	status_.pair_rate = report.pair_rate;
 	status_.ball_rate = report.ball_rate;
 	status_.latency_median = report.latency_median;

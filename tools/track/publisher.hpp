@@ -25,9 +25,16 @@ public:
 
 	void publish(const StatusReport &report);
 
+	// LCM's, as chosen.
+	const std::string &url() const
+	{
+		return url_;
+	}
+
 private:
 	template<class Message> void send(const char *channel, const Message &message);
 
+	std::string url_;
 	std::unique_ptr<lcm::LCM> lcm_;
 	pongeye::ball_t ball_;
 	pongeye::prediction_t prediction_;

@@ -9,8 +9,9 @@ namespace track
 {
 
 struct StereoPair {
-	int64_t utime;          // middle of the exposure
-	int64_t frame;          // counts trigger pulses: a number left out is a pair that never came
+	int64_t utime; // middle of the exposure
+	int64_t frame; // number of the trigger pulse where the trigger is heard, else counted: a number left out
+		       // is a pair that never came
 	pong_image left, right; // the source's own, until the next call of next()
 	int64_t arrival_ns;     // when the later picture was here, by monotonic_ns()
 };
@@ -27,6 +28,12 @@ struct Dropped {
 	}
 };
 
+// Pulses of the trigger, where it is heard, and those of which a camera's picture did not come.
+struct Pulses {
+	int64_t heard = 0;
+	int64_t missed[2] = {0, 0}; // by pong_side
+};
+
 enum class Next { PAIR, NOTHING_YET, END };
 
 class Source
@@ -38,6 +45,11 @@ public:
 	virtual Next next(StereoPair &pair) = 0;
 
 	virtual Dropped dropped() const = 0;
+
+	virtual Pulses pulses() const
+	{
+		return {};
+	}
 };
 
 } // namespace track

@@ -40,12 +40,14 @@ bool Status::second_over(int64_t now_ns) const
 	return now_ns - begin_ns_ >= SECOND_NS;
 }
 
-void Status::close_second(int64_t now_ns, const Dropped &dropped)
+void Status::close_second(int64_t now_ns, const Dropped &dropped, const Pulses &pulses)
 {
 	const double seconds = static_cast<double>(now_ns - begin_ns_) / SECOND_NS;
 	const int64_t balls = outcomes_[PONG_SEEN];
 	report_.pairs = pairs_;
 	report_.dropped = drops_of(dropped, outcomes_[PONG_OUT_OF_ORDER]);
+	report_.missed_left = pulses.missed[PONG_LEFT];
+	report_.missed_right = pulses.missed[PONG_RIGHT];
 	report_.outcomes = outcomes_;
 	report_.pair_rate = static_cast<double>(pairs_ - pairs_before_) / seconds;
 	report_.ball_rate = static_cast<double>(balls - balls_before_) / seconds;
@@ -72,7 +74,7 @@ void Status::measure_epipolar()
 	report_.epipolar_rms = std::sqrt(squares / balls);
 }
 
-std::string Status::summary(const Dropped &dropped) const
+std::string Status::summary(const Dropped &dropped, const Pulses &pulses) const
 {
 	const int64_t out_of_order = outcomes_[PONG_OUT_OF_ORDER];
 	const auto number = [](int64_t count) { return static_cast<long long>(count); };
@@ -81,6 +83,10 @@ std::string Status::summary(const Dropped &dropped) const
 					number(pairs_), number(outcomes_[PONG_SEEN]),
 					number(drops_of(dropped, out_of_order)), number(dropped.unpaired),
 					number(dropped.incomplete), number(dropped.late), number(out_of_order));
+	if (pulses.heard > 0)
+		text += pong::format("; %lld trigger pulses heard, missed by the left camera %lld, by the right %lld",
+				     number(pulses.heard), number(pulses.missed[PONG_LEFT]),
+				     number(pulses.missed[PONG_RIGHT]));
 	if (outcomes_[PONG_SEEN] > 0)
 		text += pong::format("; latency median %.2f ms, p99 %.2f ms, max %.2f ms", 1e3 * run_.percentile(0.5),
 				     1e3 * run_.percentile(0.99), 1e3 * run_.max());

@@ -16,6 +16,7 @@ namespace
 constexpr int64_t readout = 300000;      // from the exposure's end to the first packet, ns
 constexpr int64_t idle_wait = 100000000; // how often a still camera looks around, ns
 constexpr int64_t patience = 4000000;    // a picture later than this is stale, ns
+constexpr int64_t forgotten = 30000000;  // an edge from outside that is found so late is missed, ns
 constexpr size_t ethernet_overhead = 38; // preamble, header, check sum, gap: bytes that a packet costs the link
 constexpr int64_t burst = 200000;        // packets leave up to this early: fewer wake-ups than one a packet, ns
 
@@ -55,9 +56,11 @@ uint32_t address_of(const ServerSettings &settings, int index)
 } // namespace
 
 Camera::Camera(const ServerSettings &settings, int index, const TriggerLine &line, PictureSource &source)
-	: index_(index), width_(settings.width), height_(settings.height), link_rate_(settings.link_rate), line_(line),
-	  source_(source), control_socket_({address_of(settings, index), gvcp::port}),
-	  stream_socket_({address_of(settings, index), 0}), control_(control_settings(settings, index), ring_),
+	: index_(index), width_(settings.width), height_(settings.height), link_rate_(settings.link_rate),
+	  miss_every_(settings.cameras[static_cast<size_t>(index)].miss_every),
+	  is_outside_(!settings.trigger_socket.empty()), line_(line), source_(source),
+	  control_socket_({address_of(settings, index), gvcp::port}), stream_socket_({address_of(settings, index), 0}),
+	  control_(control_settings(settings, index), ring_),
 	  pixels_(static_cast<size_t>(width_) * static_cast<size_t>(height_))
 {
 	control_.set_stream_source_port(stream_socket_.port());
@@ -110,7 +113,9 @@ void Camera::expose_pictures()
 		if (acquisition.session && acquisition.session != session_)
 			begin_session(acquisition);
 		const std::optional<Shot> shot = acquisition.session ? plan(acquisition) : std::nullopt;
-		if (shot)
+		if (shot && is_to_miss(*shot))
+			miss(*shot, acquisition);
+		else if (shot)
 			take(*shot, acquisition);
 		else
 			control_.wait_for_change(monotonic_now() + idle_wait, acquisition);
@@ -134,7 +139,9 @@ std::optional<Camera::Shot> Camera::plan(const Acquisition &acquisition)
 	const int64_t earliest = std::max(sensor_free_, rendered - nanoseconds(acquisition.exposure) - readout);
 	if (!acquisition.is_triggered)
 		return plan_free(acquisition, earliest);
-	return acquisition.by_line ? plan_by_line(earliest) : plan_by_software(acquisition);
+	if (!acquisition.by_line)
+		return plan_by_software(acquisition);
+	return plan_by_line(is_outside_ ? std::max(sensor_free_, monotonic_now() - forgotten) : earliest);
 }
 
 std::optional<Camera::Shot> Camera::plan_by_line(int64_t earliest) const
@@ -142,7 +149,7 @@ std::optional<Camera::Shot> Camera::plan_by_line(int64_t earliest) const
 	const std::optional<Pulse> pulse = line_.next(earliest);
 	if (!pulse)
 		return std::nullopt;
-	return Shot{pulse->time, pulse->number, true, false};
+	return Shot{pulse->time, pulse->number, true, is_outside_};
 }
 
 // Several triggers that come while a picture is under way make one more picture.
@@ -162,6 +169,19 @@ Camera::Shot Camera::plan_free(const Acquisition &acquisition, int64_t earliest)
 	return {start, line_.number_at(start), false, false};
 }
 
+bool Camera::is_to_miss(const Shot &shot) const
+{
+	return shot.is_by_line && miss_every_ > 0 && shot.pulse % miss_every_ == 0;
+}
+
+// As if the edge had not been seen.
+void Camera::miss(const Shot &shot, const Acquisition &acquisition)
+{
+	sensor_free_ = shot.start + 1;
+	if (control_.wait_in_session(shot.start, acquisition.session))
+		missed_++;
+}
+
 // Rendered before it is due, sent when it is: or not at all, where the machine was too busy to render it in time.
 void Camera::take(const Shot &shot, const Acquisition &acquisition)
 {
@@ -173,6 +193,7 @@ void Camera::take(const Shot &shot, const Acquisition &acquisition)
 	if (!shot.can_wait && monotonic_now() > end + readout + patience)
 		return;
 	stream(compose(shot, acquisition), acquisition);
+	pictures_++;
 	if (acquisition.is_single_frame)
 		control_.finish(acquisition.session);
 }

@@ -31,6 +31,11 @@ public:
 		return control_;
 	}
 
+	CameraCounts counts() const
+	{
+		return {pictures_, missed_};
+	}
+
 	// Answer whatever has come to the control port, and where to wait for it.
 	void serve();
 	int control_descriptor() const
@@ -55,6 +60,8 @@ private:
 	std::optional<Shot> plan_by_line(int64_t earliest) const;
 	std::optional<Shot> plan_by_software(const Acquisition &acquisition);
 	Shot plan_free(const Acquisition &acquisition, int64_t earliest) const;
+	bool is_to_miss(const Shot &shot) const;
+	void miss(const Shot &shot, const Acquisition &acquisition);
 	void begin_session(const Acquisition &acquisition);
 	void take(const Shot &shot, const Acquisition &acquisition);
 	void render(const Shot &shot, const Acquisition &acquisition);
@@ -65,6 +72,8 @@ private:
 	const int index_;
 	const int width_, height_; // of the sensor, px
 	const double link_rate_;   // bit/s
+	const int miss_every_;     // 0: misses no trigger
+	const bool is_outside_;    // whether the line's pulses are known when they have come, not before
 	const TriggerLine &line_;
 	PictureSource &source_;
 	const UdpSocket control_socket_, stream_socket_;
@@ -72,6 +81,7 @@ private:
 	Control control_;
 
 	std::atomic<bool> is_on_ = false;
+	std::atomic<int64_t> pictures_ = 0, missed_ = 0;
 	std::thread thread_;
 
 	// Of the thread alone.

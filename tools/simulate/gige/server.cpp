@@ -9,6 +9,7 @@
 
 #include "camera.hpp"
 #include "clock.hpp"
+#include "edge_socket.hpp"
 #include "program.hpp"
 
 namespace gige
@@ -19,6 +20,7 @@ namespace
 
 constexpr Endpoint broadcast = {0xffffffff, gvcp::port};
 constexpr int64_t longest_wait = 50000000; // heartbeats and requests to stop are looked at as often, ns
+constexpr int edges_a_round = 16;          // fewer than the line remembers
 constexpr int64_t lead = 20000000;         // from the last camera's start to the first pulse, ns
 constexpr int64_t linger = 500000000;      // after the last pulse: its picture, and packets asked for again, ns
 
@@ -64,6 +66,8 @@ struct Server::Implementation {
 	void serve_until(int64_t time);
 	void answer_discovery();
 	void watch_line();
+	void receive_edges();
+	void switch_line();
 	void report(const Pulse &pulse);
 	bool any_waits() const;
 	bool all_wait() const;
@@ -73,6 +77,7 @@ struct Server::Implementation {
 	TriggerLine line;
 	Cameras cameras;
 	const UdpSocket discovery_socket;
+	std::unique_ptr<EdgeSocket> edge_socket; // none: the line makes its own pulses
 	std::vector<pollfd> inputs;
 };
 
@@ -83,6 +88,11 @@ Server::Implementation::Implementation(const ServerSettings &wanted, PictureSour
 	for (const auto &camera : cameras)
 		inputs.push_back({camera->control_descriptor(), POLLIN, 0});
 	inputs.push_back({discovery_socket.descriptor(), POLLIN, 0});
+	if (settings.trigger_socket.empty())
+		return;
+	edge_socket = std::make_unique<EdgeSocket>(settings.trigger_socket);
+	inputs.push_back({edge_socket->descriptor(), POLLIN, 0});
+	line.connect_outside();
 }
 
 void Server::Implementation::run(int64_t pulses)
@@ -112,6 +122,7 @@ void Server::Implementation::serve_until(int64_t time)
 		for (const auto &camera : cameras)
 			camera->serve();
 		answer_discovery();
+		receive_edges();
 	}
 	for (const auto &camera : cameras)
 		camera->control().check_heartbeat(monotonic_now());
@@ -126,11 +137,29 @@ void Server::Implementation::answer_discovery()
 			camera->answer_discovery(datagram, from);
 }
 
-// The line pulses from when every camera that has a client waits for it, until none does.
+void Server::Implementation::receive_edges()
+{
+	for (int i = 0; edge_socket && i < edges_a_round; i++) {
+		const std::optional<int64_t> time = edge_socket->receive();
+		if (!time)
+			return;
+		line.add_edge(*time);
+		for (const auto &camera : cameras)
+			camera->control().notify();
+	}
+}
+
 void Server::Implementation::watch_line()
 {
 	while (const std::optional<Pulse> pulse = line.take(monotonic_now()))
 		report(*pulse);
+	if (!edge_socket)
+		switch_line();
+}
+
+// Its own pulses come from when every camera that has a client waits for them, until none does.
+void Server::Implementation::switch_line()
+{
 	if (line.is_running() && !any_waits()) {
 		line.stop();
 	} else if (!line.is_running() && all_wait()) {
@@ -170,6 +199,11 @@ Server::~Server() = default;
 void Server::run(int64_t pulses)
 {
 	implementation_->run(pulses);
+}
+
+CameraCounts Server::counts(int camera) const
+{
+	return implementation_->cameras[static_cast<size_t>(camera)]->counts();
 }
 
 } // namespace gige

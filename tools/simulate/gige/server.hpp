@@ -30,6 +30,7 @@ public:
 struct CameraSettings {
 	std::string address; // of this machine: "127.0.0.1"
 	std::string serial;  // "SIML"
+	int miss_every = 0;  // misses every so many-th trigger; 0: none
 };
 
 struct ServerSettings {
@@ -38,6 +39,13 @@ struct ServerSettings {
 	double rate = 110;             // of the trigger line, Hz
 	double exposure = 0.002;       // until a client sets another one, s
 	double link_rate = 1e9;        // packets are paced as this link would, bit/s
+	std::string trigger_socket; // where the line's edges come from, see edge_socket.hpp; empty: of the line's own
+};
+
+// What became of the trigger's pulses in one camera.
+struct CameraCounts {
+	int64_t pictures = 0; // sent
+	int64_t missed = 0;   // because it was told to miss them
 };
 
 class Server
@@ -50,6 +58,8 @@ public:
 	// Serve until pong::stop_requested(), or until `pulses` trigger pulses have come (0: no end). The trigger line
 	// starts when all cameras stream, so that no client misses the beginning.
 	void run(int64_t pulses);
+
+	CameraCounts counts(int camera) const;
 
 private:
 	struct Implementation;

@@ -34,6 +34,19 @@ void TriggerLine::end_at(int64_t number)
 	last_ = number;
 }
 
+void TriggerLine::connect_outside()
+{
+	const std::lock_guard<std::mutex> lock(mutex_);
+	is_outside_ = running_ = true;
+}
+
+void TriggerLine::add_edge(int64_t time)
+{
+	const std::lock_guard<std::mutex> lock(mutex_);
+	edge_count_++;
+	edges_[static_cast<size_t>(edge_count_ % recent)] = time;
+}
+
 void TriggerLine::start(int64_t origin)
 {
 	const std::lock_guard<std::mutex> lock(mutex_);
@@ -56,18 +69,25 @@ bool TriggerLine::is_running() const
 
 bool TriggerLine::exists(int64_t number) const
 {
-	return running_ && (last_ == 0 || number <= last_);
+	const bool has_come = number > edge_count_ - recent && number <= edge_count_;
+	return running_ && (last_ == 0 || number <= last_) && (has_come || !is_outside_);
 }
 
 int64_t TriggerLine::time_of(int64_t number) const
 {
+	if (is_outside_)
+		return edges_[static_cast<size_t>(number % recent)];
 	return schedule_.time(number - first_);
 }
 
 std::optional<Pulse> TriggerLine::next(int64_t earliest) const
 {
 	const std::lock_guard<std::mutex> lock(mutex_);
-	const int64_t number = first_ + schedule_.first_from(earliest);
+	int64_t number = first_ + schedule_.first_from(earliest);
+	if (is_outside_)
+		for (number = std::max<int64_t>(1, edge_count_ - recent + 1); exists(number); number++)
+			if (time_of(number) >= earliest)
+				break;
 	if (!exists(number))
 		return std::nullopt;
 	return Pulse{number, time_of(number)};
@@ -106,7 +126,7 @@ int64_t TriggerLine::count() const
 int64_t TriggerLine::number_at(int64_t time) const
 {
 	const std::lock_guard<std::mutex> lock(mutex_);
-	if (running_)
+	if (running_ && !is_outside_)
 		return first_ + schedule_.nearest(time);
 	return 1 + Schedule{power_on_, schedule_.rate}.nearest(time);
 }

@@ -1,6 +1,8 @@
-// The wire that triggers the cameras: pulses of a fixed rate, whose times are known beforehand.
+// The wire that triggers the cameras: pulses of a fixed rate, whose times are known beforehand; or those of a trigger
+// outside, which are known when they have come.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -32,6 +34,12 @@ public:
 	// `power_on` is when the world begins.
 	TriggerLine(double rate, int64_t power_on);
 
+	// From now on its pulses are those that come from outside, and it runs for ever.
+	void connect_outside();
+
+	// A rising edge from outside.
+	void add_edge(int64_t time);
+
 	// End with this pulse; 0: never.
 	void end_at(int64_t number);
 
@@ -59,6 +67,8 @@ public:
 	int64_t number_at(int64_t time) const;
 
 private:
+	static constexpr int64_t recent = 64; // edges from outside that are remembered
+
 	bool exists(int64_t number) const;
 	int64_t time_of(int64_t number) const;
 
@@ -69,6 +79,9 @@ private:
 	bool running_ = false;
 	int64_t first_ = 1; // the pulse of the schedule's origin
 	int64_t next_ = 1;  // the pulse that take() waits for
+	bool is_outside_ = false;
+	std::array<int64_t, recent> edges_ = {}; // by number % recent
+	int64_t edge_count_ = 0;
 };
 
 } // namespace gige

@@ -1,4 +1,4 @@
-#include "rivals.hpp"
+#include "opencv_way.hpp"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>

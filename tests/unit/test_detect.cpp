@@ -1,0 +1,193 @@
+// What is found, and what is not, in drawn pictures.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "cells.hpp"
+#include "conditions.hpp"
+#include "pictures.hpp"
+#include "rigs.hpp"
+
+namespace
+{
+
+const int width = 640, height = 480;
+const double noise = 1.5; // grey levels
+
+class Detect : public testing::TestWithParam<pong_detect_method>
+{
+protected:
+	Detect() : rig_(test_rig())
+	{
+		pong_settings_defaults(PONG_BEST, &settings_);
+		settings_.detect.method = GetParam();
+		region_ = pong_region_new(&rig_, PONG_LEFT, &settings_, nullptr);
+		detector_ = pong_detector_new(region_, &settings_, nullptr);
+	}
+
+	~Detect() override
+	{
+		pong_detector_free(detector_);
+		pong_region_free(region_);
+	}
+
+	// Look at three pictures, with the ball only in the current one.
+	int look(Picture current, Picture earlier, Picture before, const pong_window *window = nullptr)
+	{
+		current.add_noise(noise, 1);
+		earlier.add_noise(noise, 2);
+		before.add_noise(noise, 3);
+		const pong_pictures pictures = {current.image(), {earlier.image(), before.image()}};
+		return pong_detect(detector_, &pictures, window, found_, capacity);
+	}
+
+	static const int capacity = 8;
+	pong_rig rig_;
+	pong_settings settings_;
+	pong_region *region_;
+	pong_detector *detector_;
+	pong_detection found_[capacity];
+};
+
+Picture with_ball(int background, double u, double v, double radius, double brightness)
+{
+	Picture picture(width, height, static_cast<uint8_t>(background));
+	picture.draw_ball(u, v, radius, brightness);
+	return picture;
+}
+
+TEST_P(Detect, FindsABrightBallAndNothingElse)
+{
+	const Picture empty(width, height, 50);
+	ASSERT_EQ(look(with_ball(50, 300.3, 240.8, 11, 200), empty, empty), 1);
+	EXPECT_NEAR(found_[0].u, 300.3, 0.5);
+	EXPECT_NEAR(found_[0].v, 240.8, 0.5);
+	EXPECT_NEAR(found_[0].size, 22, 2.2);
+	EXPECT_GT(found_[0].contrast, 100);
+}
+
+TEST_P(Detect, FindsNothingInNoise)
+{
+	const Picture empty(width, height, 120);
+	EXPECT_EQ(look(empty, empty, empty), 0);
+}
+
+// A window narrows the search down: a ball out of it is not seen.
+TEST_P(Detect, KeepsToTheWindow)
+{
+	const Picture empty(width, height, 50), ball = with_ball(50, 300, 240, 11, 200);
+	const pong_window here = {270, 210, 60, 60, 18, 28}, elsewhere = {400, 210, 60, 60, 18, 28};
+	EXPECT_EQ(look(ball, empty, empty, &here), 1);
+	EXPECT_EQ(look(ball, empty, empty, &elsewhere), 0);
+}
+
+// Two balls, the brighter one first.
+TEST_P(Detect, OrdersByContrast)
+{
+	const Picture empty(width, height, 50);
+	Picture two = with_ball(50, 200, 260, 11, 120);
+	two.draw_ball(400, 240, 11, 220);
+	ASSERT_EQ(look(two, empty, empty), 2);
+	EXPECT_NEAR(found_[0].u, 400, 1);
+	EXPECT_NEAR(found_[1].u, 200, 1);
+}
+
+TEST_P(Detect, IgnoresAStripe)
+{
+	const Picture empty(width, height, 50);
+	Picture stripe(width, height, 50);
+	for (int u = 200; u < 400; u += 4)
+		stripe.draw_ball(u, 240, 4, 200);
+	EXPECT_EQ(look(stripe, empty, empty), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Detect, testing::Values(PONG_DETECT_DIFFERENCE, PONG_DETECT_DOUBLE_DIFFERENCE),
+			 [](const auto &method) {
+				 return method.param == PONG_DETECT_DIFFERENCE ? "Difference" : "DoubleDifference";
+			 });
+
+class DoubleDifference : public Detect
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Best, DoubleDifference, testing::Values(PONG_DETECT_DOUBLE_DIFFERENCE));
+
+TEST_P(DoubleDifference, FindsADarkBall)
+{
+	const Picture empty(width, height, 200);
+	ASSERT_EQ(look(with_ball(200, 300, 240, 11, 120), empty, empty), 1);
+	EXPECT_NEAR(found_[0].u, 300, 0.5);
+}
+
+// Where the ball was is no ball now, neither before a dark nor before a bright wall.
+TEST_P(DoubleDifference, SeesNoGhosts)
+{
+	const Picture empty(width, height, 100);
+	EXPECT_EQ(look(empty, with_ball(100, 300, 240, 11, 200), with_ball(100, 400, 240, 11, 200)), 0);
+	EXPECT_EQ(look(empty, with_ball(100, 300, 240, 11, 30), with_ball(100, 400, 240, 11, 30)), 0);
+}
+
+// Ten grey levels of contrast on the mean of a chequered wall, in noise of 1.5.
+TEST_P(DoubleDifference, FindsABallOfLowContrast)
+{
+	const Picture empty(width, height, 190);
+	ASSERT_EQ(look(with_ball(190, 300, 240, 11, 205), empty, empty), 1);
+	EXPECT_NEAR(found_[0].u, 300, 1);
+	EXPECT_NEAR(found_[0].size, 22, 4);
+}
+
+// A lamp that flickers: the whole picture is a tenth brighter than before.
+TEST_P(DoubleDifference, BearsAFlickeringLamp)
+{
+	const Picture dim(width, height, 100);
+	EXPECT_EQ(look(Picture(width, height, 110), dim, dim), 0);
+	ASSERT_EQ(look(with_ball(110, 300, 240, 11, 200), dim, dim), 1);
+	EXPECT_NEAR(found_[0].u, 300, 0.5);
+}
+
+TEST(Cells, SumsAreThoseOfTheirPixels)
+{
+	const int count = 53, stride = 4 * count + 7;
+	std::vector<uint8_t> pixels(4 * stride);
+	std::mt19937 random(1);
+	std::generate(pixels.begin(), pixels.end(), [&] { return static_cast<uint8_t>(random()); });
+	uint32_t sums[count];
+	pong::sum_cells(pixels.data(), stride, count, sums);
+	for (int i = 0; i < count; i++) {
+		uint32_t expected = 0;
+		for (int row = 0; row < 4; row++)
+			for (int column = 0; column < 4; column++)
+				expected += pixels[static_cast<size_t>(row * stride + 4 * i + column)];
+		EXPECT_EQ(sums[i], expected) << i;
+	}
+}
+
+TEST(Cells, DifferencesKnowTheirThreshold)
+{
+	const uint32_t now[] = {100, 200, 300}, then[] = {100, 190, 310};
+	int32_t difference[3];
+	EXPECT_FALSE(pong::subtract_cells(now, then, pong::gain_one, 10, 3, difference));
+	EXPECT_TRUE(pong::subtract_cells(now, then, pong::gain_one, 9, 3, difference));
+	EXPECT_EQ(difference[1], 10);
+	EXPECT_EQ(difference[2], -10);
+}
+
+// Gain and noise of what rests, though a third of the samples move.
+TEST(Conditions, WhatMovesHasNoSay)
+{
+	pong::CellSamples samples;
+	std::mt19937 random(2);
+	std::normal_distribution<double> cell_noise(0, 1.0); // of a cell's mean, grey levels
+	samples.count = 240;
+	for (int i = 0; i < samples.count; i++) {
+		const double level = 60 + i % 80;
+		samples.then[i] = static_cast<uint32_t>(16 * level);
+		samples.now[i] = static_cast<uint32_t>(16 * (1.08 * level + cell_noise(random) + (i % 3 ? 0 : 60)));
+	}
+	const int32_t gain = pong::measure_gain(samples);
+	EXPECT_NEAR(gain / double(pong::gain_one), 1.08, 0.01);
+	EXPECT_NEAR(pong::measure_noise(samples, gain), 1.5, 0.7); // a third that moves makes it look larger
+}
+
+} // namespace

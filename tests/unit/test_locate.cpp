@@ -1,0 +1,163 @@
+// Centres of drawn and of lit balls, by every method.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "cone.hpp"
+#include "pictures.hpp"
+#include "rigs.hpp"
+
+namespace
+{
+
+const double shades[4] = {0.35, 0.1, -0.25, 0.4}; // ambient, and along the normal's x, y, z
+
+// A sphere of the table frame seen by a camera: each pixel's brightness from 8 x 8 rays, by ray and sphere alone.
+std::vector<uint8_t> render(const pong_camera &camera, const Eigen::Vector3d &centre, double radius, unsigned seed)
+{
+	const int fine = 8;
+	const pong::Camera parts(camera);
+	std::mt19937 random(seed);
+	std::normal_distribution<double> noise(0, 1);
+	std::vector<uint8_t> pixels;
+	const Eigen::Vector3d to_centre = centre - parts.centre;
+	for (int v = 0; v < camera.height; v++)
+		for (int u = 0; u < camera.width; u++) {
+			double sum = 0;
+			const double far = (Eigen::Vector2d(u, v) - parts.project(centre)).norm();
+			const int samples = far < 60 ? fine : 1;
+			for (int k = 0; k < samples * samples; k++) {
+				const Eigen::Vector2d pixel(u - 0.5 + (k % samples + 0.5) / samples,
+							    v - 0.5 + (k / samples + 0.5) / samples);
+				const Eigen::Vector3d ray = parts.ray(pixel);
+				const double along = ray.dot(to_centre);
+				const double inside = radius * radius - to_centre.squaredNorm() + along * along;
+				double level = 50 + 0.02 * u;
+				if (inside > 0) {
+					const Eigen::Vector3d normal =
+						parts.R * ((along - std::sqrt(inside)) * ray - to_centre) / radius;
+					level = 200 * (shades[0] + shades[1] * normal.x() + shades[2] * normal.y() -
+						       shades[3] * normal.z());
+				}
+				sum += level;
+			}
+			pixels.push_back(static_cast<uint8_t>(
+				std::clamp(std::lround(sum / (samples * samples) + noise(random)), 0l, 255l)));
+		}
+	return pixels;
+}
+
+struct Sight {
+	pong_camera camera;
+	std::vector<uint8_t> current, earlier;
+	pong_detection detection;
+	double uv[2];
+
+	Sight(pong_side side, const Eigen::Vector3d &place) : camera(test_rig().camera[side])
+	{
+		current = render(camera, place, 0.020, 1);
+		earlier = render(camera, Eigen::Vector3d(0, 5, 1), 0.001, 2);
+		pong_project(&camera, place.data(), uv);
+		detection = {uv[0] + 0.6, uv[1] - 0.5, pong_apparent_size(&camera, place.data(), 0.040) * 1.05, 60};
+	}
+
+	// The centre's distance from where it is, px; 99 where there is none.
+	double error(pong_locate_method method, pong_centre *centre) const
+	{
+		pong_settings settings;
+		pong_settings_defaults(PONG_BEST, &settings);
+		settings.locate.method = method;
+		const auto image = [&](const std::vector<uint8_t> &pixels) {
+			return pong_image{pixels.data(), camera.width, camera.height, camera.width};
+		};
+		const pong_pictures pictures = {image(current), {image(earlier), image(earlier)}};
+		if (!pong_locate(&camera, &pictures, &detection, nullptr, &settings, centre))
+			return 99;
+		return std::hypot(centre->u - uv[0], centre->v - uv[1]);
+	}
+};
+
+TEST(Locate, FollowsShadedBallsByEveryMethod)
+{
+	const Sight sight(PONG_LEFT, {0.2, 0.25, 1.5});
+	pong_centre centre;
+	EXPECT_LT(sight.error(PONG_LOCATE_GAUSSIAN, &centre), 6);
+	EXPECT_LT(sight.error(PONG_LOCATE_CENTROID, &centre), 1);
+	EXPECT_LT(sight.error(PONG_LOCATE_EDGES, &centre), 0.3);
+	EXPECT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
+}
+
+// Off the axis and close, the outline is an ellipse whose middle is not the ball's centre.
+TEST(Locate, FindsTheSphereNotItsOutline)
+{
+	const Sight sight(PONG_RIGHT, {0.12, 0.15, 0.7});
+	pong_centre centre;
+	EXPECT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
+	EXPECT_NEAR(2 * centre.radius, sight.detection.size / 1.05, 0.3);
+}
+
+// The error is what the covariance says that it is: not a tenth, nor ten times.
+TEST(Locate, TellsItsUncertainty)
+{
+	double sum = 0;
+	int count = 0;
+	for (const double x : {-0.1, 0.0, 0.1})
+		for (const double z : {1.0, 1.8}) {
+			const Sight sight(PONG_LEFT, {x, 0.2, z});
+			pong_centre centre;
+			ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 1);
+			const Eigen::Vector2d error(centre.u - sight.uv[0], centre.v - sight.uv[1]);
+			const Eigen::Matrix2d covariance = Eigen::Map<Eigen::Matrix2d>(&centre.covariance[0][0]);
+			EXPECT_GT(covariance.determinant(), 0);
+			sum += error.dot(covariance.inverse() * error);
+			count++;
+		}
+	EXPECT_LT(sum / count, 6);
+}
+
+TEST(Locate, SaysWhereNothingIs)
+{
+	const Sight sight(PONG_LEFT, {0, 5, 1}); // out of the picture
+	pong_centre centre;
+	Sight empty = sight;
+	empty.detection = {300, 200, 20, 60};
+	empty.uv[0] = 300;
+	empty.uv[1] = 200;
+	EXPECT_EQ(empty.error(PONG_LOCATE_EDGES, &centre), 99);
+	EXPECT_EQ(empty.error(PONG_LOCATE_PHOTOMETRIC, &centre), 99);
+}
+
+// Points on the true outline of a sphere give its centre back, with a wild one among them.
+TEST(Cone, GoesThroughTheOutline)
+{
+	const pong_camera camera = test_rig().camera[PONG_LEFT];
+	const pong::Camera parts(camera);
+	const Eigen::Vector3d centre(0.25, 0.2, 1.0), axis = (centre - parts.centre).normalized();
+	const double sine = 0.020 / (centre - parts.centre).norm();
+	const Eigen::Vector3d across = axis.unitOrthogonal(), other = axis.cross(across);
+	pong::EdgePoint points[24];
+	for (int i = 0; i < 24; i++) {
+		const double angle = 2 * M_PI * i / 24;
+		const Eigen::Vector3d ray =
+			std::sqrt(1 - sine * sine) * axis + sine * (std::cos(angle) * across + std::sin(angle) * other);
+		points[i] = {parts.project(parts.centre + ray), 0.1};
+	}
+	points[5].pixel += 0.2 * (points[5].pixel - parts.project(centre));
+	pong::ConeFit fit;
+	ASSERT_TRUE(pong::fit_cone(parts, points, 24, &fit));
+	EXPECT_LT((fit.centre - parts.project(centre)).norm(), 1e-6);
+	EXPECT_EQ(fit.used, 23);
+}
+
+TEST(Streak, IsTheWayOfThePicture)
+{
+	const pong_rig rig = test_rig();
+	const double position[3] = {0, 0.3, 1.5}, velocity[3] = {10, 0, 0};
+	double streak[2];
+	ASSERT_EQ(pong_streak(&rig.camera[PONG_LEFT], position, velocity, 0.002, streak), PONG_FOUND);
+	const double size = pong_apparent_size(&rig.camera[PONG_LEFT], position, 0.020);
+	EXPECT_NEAR(streak[0], -size, 1e-3); // 20 mm to the robot's left are to the left in the picture
+	EXPECT_NEAR(streak[1], 0, 1e-3);
+}
+
+} // namespace
