@@ -11,6 +11,7 @@ namespace
 
 const double standard_gravity = 9.80665; // m/s^2
 const double step_error = 1e-6;          // m
+const double least_step = 1e-4;          // s; no ball needs shorter ones, and nonsense must end too
 const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
 const double least_spin = 1e-6;          // rad/s; the same
 const double rolling_part = 0.4;  // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
@@ -85,7 +86,7 @@ double Physics::step_length(const Parameters &parameters, const Motion &motion) 
 	const double speed = motion.velocity.norm();
 	const double rate = drag_factor_ * std::abs(parameters[PONG_STATE_DRAG]) * speed +
 			    magnus_factor_ * std::abs(parameters[PONG_STATE_MAGNUS]) * motion.spin.norm() + 1;
-	return std::pow(120 * step_error / ((speed + 1) * std::pow(rate, 4)), 0.2);
+	return std::max(least_step, std::pow(120 * step_error / ((speed + 1) * std::pow(rate, 4)), 0.2));
 }
 
 void Physics::step(const Parameters &parameters, double duration, Motion &motion) const

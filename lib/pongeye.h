@@ -546,7 +546,8 @@ typedef struct pong_prediction {
 PONG_API int pong_predict(const pong_rig *rig, const pong_state *state, const pong_settings *settings,
 			  pong_prediction *prediction);
 
-/* Where the ball is at another time, no earlier than the state's. Returns PONG_FOUND or PONG_NONE. */
+/* Where the ball is at another time, no earlier than the state's; with a covariance where the state has one: from the
+ * track's recent state, what to expect of the next picture, and how far around to look. Returns PONG_FOUND or PONG_NONE. */
 PONG_API int pong_predict_at(const pong_rig *rig, const pong_state *state, int64_t utime, const pong_settings *settings,
 			     pong_state *then);
 

@@ -11,9 +11,9 @@
 #include "launches.hpp"
 #include "options.hpp"
 #include "predict/follow.hpp"
+#include "prediction_rivals.hpp"
 #include "program.hpp"
 #include "recorded.hpp"
-#include "prediction_rivals.hpp"
 
 namespace bench
 {

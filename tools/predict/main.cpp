@@ -104,6 +104,12 @@ void predict_rows(predict::PointReader &reader, const Arguments &arguments, cons
 						   : row.point.utime + std::llround(1e6 * arguments.ahead));
 		table.end_row();
 	}
+	for (const std::string &column : reader.ignored())
+		pong::say("column '" + column + "' is unknown here and was not used");
+	if (reader.skipped() > 0)
+		pong::say(pong::format(
+			"%lld rows were skipped: a number was absent or not finite, or the time did not go on",
+			static_cast<long long>(reader.skipped())));
 }
 
 std::string fit_text(const Arguments &arguments, const pong_settings &settings, pong_rig rig)
@@ -117,7 +123,11 @@ bool parse(int argc, char **argv, Arguments &arguments)
 		"pongeye-predict",
 		"Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
 		"every point.",
-		"  $ pongeye-predict --ahead 0.2 < flights.txt\n");
+		"  $ pongeye-predict --fit recorded.txt > rig.toml\n"
+		"  $ pongeye-predict --rig rig.toml --ahead 0.2 < flights.txt\n"
+		"  # flight t n hit_t hit_x hit_y hit_z ...\n"
+		"  0 0.000000 1 - - - - - - - - - - - - - - - - - - -\n"
+		"  0 0.010000 2 0.323404 0.000000 0.123607 0.000000 ...\n");
 	options.choice("--profile", {"paper", "best"}, "the published method, or what measures best (best)",
 		       &arguments.profile);
 	options.number("--hit-plane", "Z", "the plane on which the robot hits, m (0, or the rig's)",

@@ -16,7 +16,7 @@ namespace
 {
 
 const size_t line_longest = 65536;
-const double utime_largest = 4e18;     // what 64 bits hold, with room
+const double utime_largest = 2e18;     // differences still fit into 64 bits
 const double coordinate_largest = 1e6; // m: no ball is there
 const std::vector<std::string> names = {"t", "utime", "x", "y", "z", "sx", "sy", "sz", "flight"};
 
