@@ -8,6 +8,7 @@
 
 #include "camera.hpp"
 #include "error.hpp"
+#include "region.hpp"
 
 namespace pong
 {
@@ -166,7 +167,8 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 	for (int l = 0; l < left.count; l++)
 		for (int r = 0; r < right.count; r++) {
 			Match match = {&left.centre[l], &right.centre[r], {}};
-			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point))
+			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
+			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
 			const double cost =
 				expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm()

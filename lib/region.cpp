@@ -94,6 +94,14 @@ pong_region *make_region(const pong_rig &rig, pong_side side, const pong_setting
 
 } // namespace
 
+bool in_flight_space(const pong_rig &rig, const pong_settings &settings, const double position[3])
+{
+	const Box box = flight_box(rig, settings);
+	return !rig.table.present ||
+	       (position[0] >= box.low.x() && position[0] <= box.high.x() && position[1] >= box.low.y() &&
+		position[1] <= box.high.y() && position[2] <= box.high.z());
+}
+
 } // namespace pong
 
 pong_region *pong_region_new(const pong_rig *rig, pong_side side, const pong_settings *settings, pong_error *error)

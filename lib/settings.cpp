@@ -109,7 +109,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	*settings = {};
 	settings->region.ceiling = 1.2;
 	settings->region.margin = 0.2;
-	settings->region.behind = 1.5;
+	settings->region.behind = 1;
 	settings->region.distance[0] = 0.5;
 	settings->region.distance[1] = 12;
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;

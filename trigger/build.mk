@@ -123,7 +123,7 @@ $(HIL)/pongeye-trigger-gpiod2: $(BUILD)/bin/pongeye-trigger \
 
 define with_libgpiod2
 	PKG_CONFIG_PATH=$(abspath $(HIL)/libgpiod2/pkgconfig) $(MAKE) --no-print-directory BUILD=$(HIL)/with-libgpiod2 \
-	    LDFLAGS=-Wl,-rpath,'$(abspath $(wildcard $(HIL)/libgpiod2/root/usr/lib/*-linux-gnu))' \
+	    LDFLAGS="-Wl,-rpath,$$(echo $(abspath $(HIL)/libgpiod2/root/usr/lib)/*-linux-gnu)" \
 	    $(HIL)/with-libgpiod2/bin/pongeye-trigger
 	cp $(HIL)/with-libgpiod2/bin/pongeye-trigger $(1)
 endef

@@ -34,7 +34,7 @@ TEST(Region, HoldsEveryBallOverTheTable)
 	int seen = 0;
 	for (double x = -0.76; x <= 0.76; x += 0.04)
 		for (double y = 0.02; y <= 1.0; y += 0.04)
-			for (double z = 0; z <= 4.2; z += 0.1) {
+			for (double z = 0; z <= 3.7; z += 0.1) {
 				const double position[3] = {x, y, z};
 				double uv[2];
 				if (!pong_project(&rig.camera[PONG_RIGHT], position, uv) || uv[0] < 0 ||

@@ -107,7 +107,11 @@ Rig make_rig(const RigSettings &settings)
 std::string rig_text(const Rig &rig, double hit_z)
 {
 	std::string text = "# The simulator's true rig.\n";
-	text += pong::format("[ball]\ndiameter = %g\nmass = %g\n\n", 2 * ball_radius, ball_mass);
+	const Coefficients mean;
+	text += pong::format("[ball]\ndiameter = %g\nmass = %g\n", 2 * ball_radius, ball_mass);
+	text += pong::format("drag = %g\ndrag_by_spin = 0\nmagnus = %g\nmagnus_saturation = 0\n", mean.drag,
+			     mean.magnus);
+	text += pong::format("restitution = %g\nfriction = %g\ngrip = 0\n\n", mean.restitution, mean.friction);
 	text += pong::format("[table]\nlength = %g\nwidth = %g\n\n", table_length, table_width);
 	text += pong::format("[hit]\nz = %.17g\n\n", hit_z);
 	return text + camera_text("left", "127.0.0.1", rig[0]) + "\n" + camera_text("right", "127.0.0.2", rig[1]);
