@@ -93,19 +93,19 @@ typedef struct pong_camera {
 
 /* The ball and how it flies. */
 typedef struct pong_ball_spec {
-	double diameter;    /* m */
-	double mass;        /* kg */
-	double drag;        /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
-	double air_density; /* rho, kg/m^3 */
-	double bounce[3];   /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
+	double diameter;     /* m */
+	double mass;         /* kg */
+	double drag;         /* C in F = C rho S v^2 / 2 (paper, eq. 16) */
+	double air_density;  /* rho, kg/m^3 */
+	double bounce[3];    /* velocity after a bounce over velocity before it, x y z; y is negative (paper, eq. 23) */
 	double drag_by_spin; /* what S, the speed of the ball's surface over that of its flight, adds to the drag's C */
-	double magnus;      /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
+	double magnus;       /* F = magnus spin x velocity / (1 + magnus_saturation S), kg */
 	double magnus_saturation;
 	double restitution; /* vertical speed after a bounce over that before it */
 	double friction;    /* mu between ball and table */
-	double grip;        /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
-			       as that of a gripping rubber ball is, by this part */
-	double kick;        /* standard deviation of what a bounce adds to the velocity along the table, m/s */
+	double grip; /* 0: the ball leaves the table rolling where friction suffices; above, its slip is turned over,
+			as that of a gripping rubber ball is, by this part */
+	double kick; /* standard deviation of what a bounce adds to the velocity along the table, m/s */
 	double spin_sigma[3]; /* of the spin that players give to the ball about x, y, z, rad/s; its mean is 0 */
 	/* Standard deviations of the coefficients above: from ball to ball, from day to day. */
 	double drag_sigma, magnus_sigma, restitution_sigma, friction_sigma, grip_sigma;
@@ -461,7 +461,8 @@ PONG_API int pong_reconstruct(const pong_rig *rig, const pong_centre *left, cons
  */
 
 /* What the full state of a ball is made of, and the place of each part in its covariance. The coefficients are those
- * of pong_ball_spec, as this flight has shown them; the kick is what its next bounce adds to the velocity along x, z. */
+ * of pong_ball_spec, as this flight has shown them; the kick is what its next bounce adds to the velocity along x, z.
+ */
 enum {
 	PONG_STATE_POSITION = 0,
 	PONG_STATE_VELOCITY = 3,
@@ -535,7 +536,7 @@ typedef struct pong_prediction {
 	pong_state top; /* the highest point after a bounce to come, for the robot that may choose; where there is a
 			   hit, be it before or behind its plane */
 	double spin[3]; /* rad/s; NaN where unknown */
-	int path_count;    /* the way to the hit, or to the horizon */
+	int path_count; /* the way to the hit, or to the horizon */
 	struct {
 		int64_t utime;
 		double position[3];
@@ -547,7 +548,8 @@ PONG_API int pong_predict(const pong_rig *rig, const pong_state *state, const po
 			  pong_prediction *prediction);
 
 /* Where the ball is at another time, no earlier than the state's; with a covariance where the state has one: from the
- * track's recent state, what to expect of the next picture, and how far around to look. Returns PONG_FOUND or PONG_NONE. */
+ * track's recent state, what to expect of the next picture, and how far around to look. Returns PONG_FOUND or
+ * PONG_NONE. */
 PONG_API int pong_predict_at(const pong_rig *rig, const pong_state *state, int64_t utime, const pong_settings *settings,
 			     pong_state *then);
 

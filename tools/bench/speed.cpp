@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "commands.hpp"
+#include "opencv_way.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "opencv_way.hpp"
 #include "studio.hpp"
 
 namespace
