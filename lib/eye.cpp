@@ -27,7 +27,7 @@ const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
 // parts of the radius), their sizes with the distance (parts), and its outline is seen.
 const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
 const double certain_size = 0.08;
-const double certain_open = 0.13;     // longest part of the outline that may not show: more is an arm's end
+const double certain_shown = 0.87;    // of the outline: an arm's end shows less
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -84,7 +84,7 @@ struct Balls {
 	int count = 0;
 	pong_centre centre[balls_capacity];
 	double contrast[balls_capacity];
-	double open[balls_capacity]; // the longest part of the outline that does not show
+	double shown[balls_capacity]; // of the outline
 };
 
 // One camera's stages, from picture to centres.
@@ -144,7 +144,7 @@ void look(Side &side, const pong_image &image, const Expectation &expected, cons
 		if (!pong_locate(&side.camera, &pictures, &found[i], expected.streak, &settings, &centre) &&
 		    !locate_faint(found[i], settings, &centre))
 			continue;
-		balls.open[balls.count] = measure_outline(image, centre.u, centre.v, centre.radius, usual_noise).open;
+		balls.shown[balls.count] = measure_outline(image, centre.u, centre.v, centre.radius, usual_noise).shown;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
 }
@@ -186,7 +186,7 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 }
 
 // How badly the two centres agree, and the ball shows, in parts of what a ball never exceeds.
-double doubt_of(const pong_eye &eye, const Match &match, double open)
+double doubt_of(const pong_eye &eye, const Match &match, double shown)
 {
 	const pong_centre *centre[2] = {match.left, match.right};
 	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
@@ -197,7 +197,7 @@ double doubt_of(const pong_eye &eye, const Match &match, double open)
 			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
 		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
 	}
-	return std::max(doubt, open / certain_open);
+	return std::max(doubt, (1 - shown) / (1 - certain_shown));
 }
 
 // Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
@@ -220,7 +220,7 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
 			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
-			match.doubt = doubt_of(eye, match, std::max(left.open[l], right.open[r]));
+			match.doubt = doubt_of(eye, match, std::min(left.shown[l], right.shown[r]));
 			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
 			if (cost < best_cost) {
 				best_cost = cost;
