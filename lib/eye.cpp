@@ -119,11 +119,13 @@ struct Expectation {
 	const double *streak;      // null: unknown
 };
 
-// Where no edges can be located the detection's own centre stands.
-bool locate_faint(const pong_detection &found, const pong_settings &settings, pong_centre *centre)
+// The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
+// detection's own centre stands.
+bool locate(const Side &side, const pong_pictures &pictures, const pong_detection &found, const double *streak,
+	    const pong_settings &settings, pong_centre *centre)
 {
 	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
-		return false;
+		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
 	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
 	return true;
@@ -141,8 +143,7 @@ void look(Side &side, const pong_image &image, const Expectation &expected, cons
 	for (int i = 0; i < count; i++) {
 		Balls &balls = side.balls;
 		pong_centre &centre = balls.centre[balls.count];
-		if (!pong_locate(&side.camera, &pictures, &found[i], expected.streak, &settings, &centre) &&
-		    !locate_faint(found[i], settings, &centre))
+		if (!locate(side, pictures, found[i], expected.streak, settings, &centre))
 			continue;
 		balls.shown[balls.count] = measure_outline(image, centre.u, centre.v, centre.radius, usual_noise).shown;
 		balls.contrast[balls.count++] = found[i].contrast;
