@@ -29,6 +29,8 @@ const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
 const double certain_size = 0.08;
 const double certain_shown = 0.87;    // of the outline: an arm's end shows less
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
+const double window_sigmas = 4;       // of where the ball is expected, around the least window
+const double window_more_most = 100;  // px
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Lets a unique_ptr own what a _new of the public header made.
@@ -241,16 +243,34 @@ Trust trust_of(const pong_eye &eye, const Match &match)
 	return match.doubt < 1 ? Trust::certain : Trust::usual;
 }
 
+// The window where the ball is expected, as much larger as that is uncertain.
+bool window_of(const pong_eye &eye, pong_side side, const pong_state &expected, pong_window *window)
+{
+	if (!pong_window_around(&eye.rig, side, expected.position, &eye.settings, window))
+		return false;
+	double variance = 0;
+	for (int axis = 0; axis < 3 && expected.has_spin; axis++) // the paper's state has no covariance
+		variance = std::max(variance, expected.covariance[axis][axis]);
+	const double px_per_metre =
+		pong_apparent_size(&eye.rig.camera[side], expected.position, 1e-3 * eye.rig.ball.diameter) /
+		(1e-3 * eye.rig.ball.diameter);
+	const double more = std::min(window_sigmas * std::sqrt(variance) * px_per_metre, window_more_most);
+	const int px = static_cast<int>(std::ceil(more));
+	window->u -= px;
+	window->v -= px;
+	window->width += 2 * px;
+	window->height += 2 * px;
+	return true;
+}
+
 // Look into the window where the ball is expected; if it is not there, or none is expected, everywhere.
 bool find_ball(pong_eye &eye, int64_t utime, const pong_image image[2], pong_sight *sight, Match *match)
 {
 	pong_state expected;
 	pong_window window[2];
 	const bool expecting = expected_position(eye, utime, &expected);
-	sight->windowed =
-		expecting &&
-		pong_window_around(&eye.rig, PONG_LEFT, expected.position, &eye.settings, &window[PONG_LEFT]) &&
-		pong_window_around(&eye.rig, PONG_RIGHT, expected.position, &eye.settings, &window[PONG_RIGHT]);
+	sight->windowed = expecting && window_of(eye, PONG_LEFT, expected, &window[PONG_LEFT]) &&
+			  window_of(eye, PONG_RIGHT, expected, &window[PONG_RIGHT]);
 	double streak[2][2];
 	bool streaked[2];
 	for (int side = 0; side < 2; side++)
