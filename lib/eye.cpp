@@ -24,9 +24,9 @@ const double faint = 12;        // a ball of less contrast has no edges that can
 const double faint_error = 0.1; // of its centre then, radii
 const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
 // Two centres of a ball agree better than those of anything else that moves: with each other's epipolar lines (px, and
-// parts of the radius), their sizes with the distance (parts), and its outline is seen.
-const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
-const double certain_size = 0.08;
+// parts of the radius), their sizes with the distance (parts, and px of the radius), and its outline is seen.
+const double certain_epipolar = 1, certain_epipolar_size = 0.03;
+const double certain_size = 0.06, certain_radius = 0.5;
 const double certain_shown = 0.87;    // of the outline: an arm's end shows less
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double window_sigmas = 4;       // of where the ball is expected, around the least window
@@ -197,8 +197,9 @@ double doubt_of(const pong_eye &eye, const Match &match, double shown)
 	double doubt = std::abs(pong_epipolar_distance(eye.rig.camera, left_uv, right_uv)) / reach;
 	for (int side = 0; side < 2; side++) {
 		const double expected =
-			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
-		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
+			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter) / 2;
+		const double reach_of_size = certain_size * expected + certain_radius;
+		doubt = std::max(doubt, std::abs(centre[side]->radius - expected) / reach_of_size);
 	}
 	return std::max(doubt, (1 - shown) / (1 - certain_shown));
 }
