@@ -26,10 +26,10 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr auto PATIENCE = 100ms;                     // how long next() waits
-constexpr int64_t SILENCE_NS = INT64_C(2000000000);  // without pictures, then the user is told
-constexpr double OVERDUE = 0.2, OVERDUE_PERIODS = 3; // s, and periods: a picture that the others show to be missing
-constexpr size_t QUEUE = 32;                         // pictures of both cameras: 0.15 s at 110 Hz
+constexpr auto PATIENCE = 20ms;                       // how long next() waits
+constexpr int64_t SILENCE_NS = INT64_C(2000000000);   // without pictures, then the user is told
+constexpr double OVERDUE = 0.18, OVERDUE_PERIODS = 3; // s, and periods: a picture that the others show to be missing
+constexpr size_t QUEUE = 32;                          // pictures of both cameras: 0.15 s at 110 Hz
 
 // Hands pictures from the cameras' threads to the one that tracks.
 class Mailbox

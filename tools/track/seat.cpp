@@ -13,6 +13,7 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr auto SEARCH_INTERVAL = 50ms;            // between questions whether a camera is there
+constexpr int TRIES_AT_OLD_ADDRESS = 40;          // of those: 6 s
 constexpr auto ANSWER_PATIENCE = 100ms;           // with the answer
 constexpr auto RETRY_INTERVAL = 300ms;            // after a camera that could not be opened
 constexpr auto WATCH_INTERVAL = 50ms;             // between looks at an open one
@@ -115,10 +116,12 @@ void Seat::keep()
 	}
 }
 
-// Where its address is known, Aravis is called only when the camera is there and free. False: time to end.
+// Where its address is known, Aravis is called only when the camera is there and free. One that rig.toml names
+// otherwise may come back with another address, which Aravis finds. False: time to end.
 bool Seat::wait_for_camera()
 {
-	while (address_ && sleep(0ms)) {
+	const bool is_at_address = parse_address(settings_camera_.id).has_value();
+	for (int tries = 0; address_ && sleep(0ms) && (is_at_address || tries < TRIES_AT_OLD_ADDRESS); tries++) {
 		const Presence presence = ask_presence(*address_, ANSWER_PATIENCE);
 		if (presence == Presence::FREE)
 			break;
@@ -176,7 +179,7 @@ void Seat::watch()
 		}
 		const Verdict verdict = examine(*camera_, suspected);
 		if (verdict == Verdict::LOST) {
-			tell(name_ + ": lost: it no longer answers; waiting for it");
+			tell(name_ + ": lost: " + loss_ + "; waiting for it");
 			losses_++;
 			return;
 		}
@@ -195,18 +198,19 @@ void Seat::watch()
 
 Seat::Verdict Seat::examine(Camera &camera, bool suspected)
 {
+	loss_ = "it no longer answers, or another program took it";
 	if (camera.lost())
 		return Verdict::LOST;
 	const int64_t still_ns = monotonic_ns() - camera.last_sign_ns();
 	if (still_ns < RECENT_NS || (!suspected && still_ns < IDLE_NS))
 		return Verdict::WELL;
 	const std::optional<uint32_t> address = camera.address();
+	const Verdict still_there = suspected ? Verdict::QUIET : Verdict::WELL;
 	if (!address)
-		return suspected ? Verdict::QUIET : Verdict::WELL;
-	// Nobody controls it: it was off in between, and knows nothing of us.
-	if (ask_presence(*address, suspected ? SUSPECTED_PATIENCE : IDLE_PATIENCE) != Presence::CONTROLLED)
-		return Verdict::LOST;
-	return suspected ? Verdict::QUIET : Verdict::WELL;
+		return still_there;
+	const Presence presence = ask_presence(*address, suspected ? SUSPECTED_PATIENCE : IDLE_PATIENCE);
+	loss_ = presence == Presence::FREE ? "it was off in between, and knows nothing of us" : "it no longer answers";
+	return presence == Presence::CONTROLLED ? still_there : Verdict::LOST;
 }
 
 // In another thread, for Aravis waits for a lost camera, 3 s and longer, and it may be back before.

@@ -80,7 +80,8 @@ private:
 	CaptureCounts counts_;
 	std::atomic<int64_t> exposure_ns_{0}, losses_{0};
 	int opened_ = 0;
-	std::string told_; // the last sentence
+	std::string told_;      // the last sentence
+	const char *loss_ = ""; // why examine() takes the camera for lost
 
 	mutable std::mutex mutex_; // guards what follows
 	std::condition_variable wake_;
