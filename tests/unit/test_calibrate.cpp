@@ -41,20 +41,6 @@ Session session_of_32(double placement, double tilt)
 	return session;
 }
 
-double expected_rms(const pong_calibration &calibration)
-{
-	double squares = 0;
-	int count = 0;
-	for (const auto &position : pong::table_volume()) {
-		double covariance[3][3];
-		if (pong_calibration_error(&calibration, position.data(), covariance) != PONG_FOUND)
-			continue;
-		squares += covariance[0][0] + covariance[1][1] + covariance[2][2];
-		count++;
-	}
-	return std::sqrt(squares / count);
-}
-
 struct Outcome {
 	double mean, actual, expected; // m: mean error, its rms, the rms that was expected
 };
@@ -70,7 +56,7 @@ Outcome run(const Session &session, double k1, int seeds)
 		const pong::VolumeError error = volume_error(rig, calibration.camera, pong::table_volume());
 		outcome.mean += error.mean / seeds;
 		outcome.actual += error.rms * error.rms / seeds;
-		outcome.expected += std::pow(expected_rms(calibration), 2) / seeds;
+		outcome.expected += std::pow(pong::expected_error(calibration, pong::table_volume()), 2) / seeds;
 	}
 	outcome.actual = std::sqrt(outcome.actual);
 	outcome.expected = std::sqrt(outcome.expected);
@@ -201,8 +187,10 @@ TEST(Calibrate, OneMoreBoardMakesItMoreCertain)
 		if (corner.view == 4)
 			corners.push_back(corner);
 	pong_calibration_expect(&before, pose, corners.data(), static_cast<int>(corners.size()), &after);
-	EXPECT_LT(expected_rms(after), expected_rms(before));
-	EXPECT_GT(expected_rms(after), 0.5 * expected_rms(before));
+	EXPECT_LT(pong::expected_error(after, pong::table_volume()),
+		  pong::expected_error(before, pong::table_volume()));
+	EXPECT_GT(pong::expected_error(after, pong::table_volume()),
+		  0.5 * pong::expected_error(before, pong::table_volume()));
 }
 
 TEST(Calibrate, SaysWhyItCannot)
