@@ -6,7 +6,7 @@ private_network
 
 "$bin/pongeye-simulate" --cameras --scene board --rate 20 --rig "$work/true.toml" --seed 2 2>"$work/simulate.log" &
 simulator=$!
-for _ in $(seq 100); do [ -s "$work/true.toml" ] && break; sleep 0.1; done
+for _ in $(seq 300); do grep -q "cameras on" "$work/simulate.log" && break; sleep 0.1; done
 board=(--board 9x6 --square 0.025 --no-table)
 check "eight pairs are collected and calibrate" timeout 120 "$bin/pongeye-calibrate" "${board[@]}" \
 	--cameras "$work/true.toml" --pairs 8 --save "$work/pictures" --output "$work/rig.toml"

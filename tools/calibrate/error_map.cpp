@@ -15,7 +15,7 @@ namespace
 
 using pong::format;
 
-const double picture_width = 680, left_margin = 64, right_margin = 40, top_margin = 66,
+const double picture_width = 680, left_margin = 64, right_margin = 40, top_margin = 92,
 	     bottom_margin = 56; // units of SVG
 const double least_step = 34;    // between rows, units
 
@@ -136,7 +136,7 @@ std::string error_map(const Volume &volume, const MapAxes &axes, const std::stri
 	for (const auto &[value, count] : upward)
 		svg += text_at(left_margin - 20, y.at(value) + 4.5, "end", format("%.2f", value / 100.0), 12);
 	svg += text_at((begin + end) / 2, height - 6, "middle", format("%c, m", names[axes.right]));
-	svg += text_at(0, top_margin - 4, "start", format("%c, m", names[axes.up]));
+	svg += text_at(left_margin - 20, top_margin - 20, "end", format("%c, m", names[axes.up]));
 	return svg + "</svg>";
 }
 
