@@ -146,8 +146,7 @@ TEST(Calibrate, TakesTheFrameFromPointsOfUncertainPlaces)
 	const double stated[4][3] = {{0.3, 0, 0.9}, {-0.3, 0, 0.9}, {-0.7, 0, 2.74}, {0.7, 0, 2.74}};
 	pong_view view = {};
 	view.placed = 1;
-	for (int i = 0; i < 3; i++)
-		view.pose[i][i] = 1;
+	view.pose[0][0] = view.pose[1][2] = view.pose[2][1] = -1; // as a board that lies on the table
 	view.sigma_shape = 1;
 	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 		for (int point = 0; point < 4; point++) {
@@ -159,7 +158,7 @@ TEST(Calibrate, TakesTheFrameFromPointsOfUncertainPlaces)
 			recording.corners.push_back({static_cast<int>(recording.views.size()),
 						     side,
 						     point,
-						     {p[0], p[1], p[2]},
+						     {-p[0], -p[2], 0},
 						     {pixel.x(), pixel.y()},
 						     1});
 		}

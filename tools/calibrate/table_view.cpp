@@ -12,7 +12,10 @@ namespace
 {
 
 const double length = 2.74, width = 1.525; // m
-const double place[4][3] = {{width / 2, 0, 0}, {-width / 2, 0, 0}, {-width / 2, 0, length}, {width / 2, 0, length}};
+// The corners in the table's own board frame, which lies as a board on the table does, rows across it: x to the robot's
+// right, y towards it, z into the table.
+const double place[4][3] = {{-width / 2, 0, 0}, {width / 2, 0, 0}, {width / 2, -length, 0}, {-width / 2, -length, 0}};
+const double pose[3][3] = {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
 const double given_spread = 5, found_spread = 2; // the noise of the table's corners over that of a board's
 const double worst_fit = 2;                      // of found corners to a table of the stated size, rms, px
 const char *const side_names[] = {"left", "right"};
@@ -72,7 +75,7 @@ pong_view table_view(double sigma_shape)
 	pong_view view = {};
 	view.placed = 1;
 	for (int i = 0; i < 3; i++)
-		view.pose[i][i] = 1;
+		std::copy_n(pose[i], 3, view.pose[i]);
 	view.sigma_shape = sigma_shape;
 	return view;
 }
