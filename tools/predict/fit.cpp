@@ -101,14 +101,19 @@ Fit fit(const std::vector<RecordedFlight> &flights, const pong_settings &setting
 	return result;
 }
 
-std::string fit_text(const Fit &fit)
+std::string fit_text(const Fit &fit, const pong_table &table)
 {
 	std::string text = pong::format("# Fitted to %zu flights by pongeye-predict --fit.\n[ball]\n", fit.flights);
 	for (const Fitted &one : fit.coefficients)
 		text += pong::format("%s = %.6g # +- %.2g\n%s_sigma = %.4g # from flight to flight\n", one.key,
 				     one.mean, one.uncertainty, one.key, one.sigma);
-	return text + pong::format("spin_sigma = [%.1f, %.1f, %.1f]\n", fit.spin_sigma[0], fit.spin_sigma[1],
-				   fit.spin_sigma[2]);
+	text += pong::format("spin_sigma = [%.1f, %.1f, %.1f]\n", fit.spin_sigma[0], fit.spin_sigma[1],
+			     fit.spin_sigma[2]);
+	if (table.present)
+		text += pong::format("\n[table] # that they bounced on; without this section no ball bounces\n"
+				     "length = %g\nwidth = %g\n",
+				     table.length, table.width);
+	return text;
 }
 
 } // namespace predict

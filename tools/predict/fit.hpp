@@ -28,7 +28,7 @@ struct Fit {
 // The rig's ball gets the result.
 Fit fit(const std::vector<RecordedFlight> &flights, const pong_settings &settings, double noise, pong_rig &rig);
 
-// The result as a section of rig.toml.
-std::string fit_text(const Fit &fit);
+// The result as text: the [ball] and [table] of a rig.toml.
+std::string fit_text(const Fit &fit, const pong_table &table);
 
 } // namespace predict
