@@ -176,7 +176,7 @@ typedef struct pong_corner {
 	int view;        /* which view, from 0 */
 	pong_side side;  /* the camera that saw it */
 	int point;       /* which of the board's points, from 0: the same in both cameras */
-	double board[3]; /* its place in the board frame, m */
+	double board[3]; /* its place in the board frame, m; z = 0 or nearly: a board is flat */
 	double uv[2];    /* px */
 	double spread;   /* its noise over that of a board's corner; 0 stands for 1 */
 } pong_corner;
