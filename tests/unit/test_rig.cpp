@@ -153,6 +153,18 @@ TEST(Settings, AreReadFromTheSameFile)
 	EXPECT_EQ(error.text, path + ":3:10: detect.method must be one of difference, double-difference");
 }
 
+TEST(Settings, AreReadFromText)
+{
+	pong_settings settings;
+	pong_error error = {};
+	pong_settings_defaults(PONG_BEST, &settings);
+	ASSERT_EQ(pong_settings_parse("[detect]\ngap = 3\n", "text", &settings, &error), PONG_FOUND) << error.text;
+	EXPECT_EQ(settings.detect.gap, 3);
+	EXPECT_EQ(pong_settings_parse("[detect]\ngap = 5\nmethod = 1\n", "text", &settings, &error), PONG_ERROR_FORMAT);
+	EXPECT_STREQ(error.text, "text:3:10: detect.method needs a text in quotes");
+	EXPECT_EQ(settings.detect.gap, 3);
+}
+
 TEST(Settings, ProfilesDiffer)
 {
 	pong_settings paper, best;
