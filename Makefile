@@ -266,3 +266,4 @@ clean:
 	rm -rf $(BUILD)
 
 -include trigger/build.mk
+-include tests/fuzz/build.mk
