@@ -22,7 +22,11 @@ constexpr char EXAMPLE[] = "  $ pongeye-simulate --out pictures --flights 2 --se
 			   "  $ pongeye-track --rig pictures/rig.toml --images pictures --output balls.txt\n"
 			   "  pongeye-track: 293 pairs, 99 with a ball; 0 pictures dropped (0 without a partner, 0 "
 			   "incomplete, 0 too late, "
-			   "0 out of order); latency median 0.48 ms, p99 8.39 ms, max 8.39 ms";
+			   "0 out of order); latency median 0.48 ms, p99 8.39 ms, max 8.39 ms\n"
+			   "\n"
+			   "  $ pongeye-track --rig rig.toml --record session.lcm     (Ctrl-C ends it)\n"
+			   "  pongeye-track: session.lcm: 402 pairs, 247.2 MB\n"
+			   "  $ pongeye-track --replay session.lcm --output table.txt";
 
 // What goes with what.
 void check(const pong::Options &options, const Arguments &arguments)
