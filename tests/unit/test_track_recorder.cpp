@@ -247,9 +247,12 @@ TEST(Parts, OutsideOfThePictureAreRefused)
 {
 	uint8_t pixels[12] = {};
 	const StereoPair pair = {1, 1, {pixels, 4, 3, 4}, {pixels, 4, 3, 4}, 0};
+	const Parts parts = {{{1, 1, 2, 2}, {0, 0, 4, 3}}};
+	std::vector<uint8_t> data(encoded_size(parts));
+	encode(pair, parts, 1, data.data());
 	pongeye::pair_t message, decoded;
-	pack(pair, {{{1, 1, 2, 2}, {0, 0, 4, 3}}}, 1, message);
-	std::vector<uint8_t> data(static_cast<size_t>(message.getEncodedSize()));
+	ASSERT_TRUE(decode(data, message));
+	EXPECT_EQ(message.getEncodedSize(), static_cast<int>(data.size()));
 	const auto decodes = [&] {
 		message.encode(data.data(), 0, static_cast<int>(data.size()));
 		return decode(data, decoded);

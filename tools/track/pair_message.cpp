@@ -1,7 +1,6 @@
 #include "pair_message.hpp"
 
 #include <cstring>
-#include <stdexcept>
 
 namespace track
 {
@@ -10,6 +9,20 @@ namespace
 {
 
 constexpr int LARGEST_SIDE = 16384; // px
+
+// A message is its type's hash, three numbers of 64 bits, twelve of 32, the size of the pixels, and the pixels.
+constexpr size_t HEAD = 8 + 3 * 8 + 12 * 4 + 4;
+
+uint32_t load32(const uint8_t *bytes)
+{
+	return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
+}
+
+void store32(uint8_t *bytes, uint32_t value)
+{
+	for (int i = 0; i < 4; i++)
+		bytes[i] = static_cast<uint8_t>(value >> (24 - 8 * i));
+}
 
 size_t size_of(const Part &part)
 {
@@ -52,43 +65,42 @@ Parts whole_of(const StereoPair &pair)
 	return {{{0, 0, pair.left.width, pair.left.height}, {0, 0, pair.right.width, pair.right.height}}};
 }
 
-void pack(const StereoPair &pair, const Parts &parts, int64_t number, pongeye::pair_t &message)
+size_t encoded_size(const Parts &parts)
 {
-	message.utime = pair.utime;
-	message.frame = pair.frame;
-	message.number = number;
-	message.pixels.resize(size_of(parts.of[PONG_LEFT]) + size_of(parts.of[PONG_RIGHT]));
-	message.size = static_cast<int32_t>(message.pixels.size());
-	uint8_t *to = message.pixels.data();
+	return HEAD + size_of(parts.of[PONG_LEFT]) + size_of(parts.of[PONG_RIGHT]);
+}
+
+void encode(const StereoPair &pair, const Parts &parts, int64_t number, uint8_t *bytes)
+{
+	pongeye::pair_t head;
+	head.utime = pair.utime;
+	head.frame = pair.frame;
+	head.number = number;
+	head.size = 0;
+	uint8_t *pixels = bytes + HEAD;
 	for (const int side : {PONG_LEFT, PONG_RIGHT}) {
 		const pong_image &image = side == PONG_LEFT ? pair.left : pair.right;
 		const Part &part = parts.of[side];
-		message.width[side] = image.width;
-		message.height[side] = image.height;
-		message.part_u[side] = part.u;
-		message.part_v[side] = part.v;
-		message.part_width[side] = part.width;
-		message.part_height[side] = part.height;
-		copy_rows(to, part.width, image.pixels + place_in(part, image.stride), image.stride, part);
-		to += size_of(part);
+		head.width[side] = image.width;
+		head.height[side] = image.height;
+		head.part_u[side] = part.u;
+		head.part_v[side] = part.v;
+		head.part_width[side] = part.width;
+		head.part_height[side] = part.height;
+		copy_rows(pixels, part.width, image.pixels + place_in(part, image.stride), image.stride, part);
+		pixels += size_of(part);
 	}
+	head.encode(bytes, 0, static_cast<int>(HEAD));
+	store32(bytes + HEAD - 4, static_cast<uint32_t>(pixels - bytes - HEAD));
 }
 
-// The generated decoder believes the size that the message states, and makes that much room: look at it first. It
-// stands before the pixels, and they end the message.
+// The generated decoder believes the size that the message states, and makes that much room: look at it first.
 bool decode(const std::vector<uint8_t> &data, pongeye::pair_t &message)
 {
-	static const size_t head = [] {
-		pongeye::pair_t empty;
-		empty.size = 0;
-		return static_cast<size_t>(empty.getEncodedSize());
-	}();
-	if (data.size() < head)
+	if (data.size() < HEAD)
 		return false;
-	const uint8_t *stated = data.data() + head - 4;
-	const uint32_t size =
-		uint32_t{stated[0]} << 24 | uint32_t{stated[1]} << 16 | uint32_t{stated[2]} << 8 | stated[3];
-	if (size != data.size() - head || message.decode(data.data(), 0, static_cast<int>(data.size())) < 0)
+	const uint32_t size = load32(data.data() + HEAD - 4);
+	if (size != data.size() - HEAD || message.decode(data.data(), 0, static_cast<int>(data.size())) < 0)
 		return false;
 	size_t expected = 0;
 	for (const int side : {PONG_LEFT, PONG_RIGHT}) {

@@ -21,10 +21,12 @@ struct Parts {
 
 Parts whole_of(const StereoPair &pair);
 
-// The parts lie within the pictures. Allocates nothing where message.pixels has room.
-void pack(const StereoPair &pair, const Parts &parts, int64_t number, pongeye::pair_t &message);
+// The message with these parts, which lie within the pictures: how many bytes it takes, and the bytes. The pixels are
+// copied once and nothing is allocated, which the generated encoder, from vectors, cannot do.
+size_t encoded_size(const Parts &parts);
+void encode(const StereoPair &pair, const Parts &parts, int64_t number, uint8_t *bytes);
 
-// Decodes a message from anywhere. False where it is not one that pack() could have made.
+// Decodes a message from anywhere. False where it is not one that encode() could have made.
 bool decode(const std::vector<uint8_t> &data, pongeye::pair_t &message);
 
 // Makes pictures of parts: what a message does not have stays as the last whole picture had it.

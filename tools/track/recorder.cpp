@@ -110,7 +110,6 @@ Recorder::Recorder(const RecordSettings &settings, const pongeye::recording_t &h
 		 settings.last > 0 ? RecordQueue::Mode::HOLD_BACK : RecordQueue::Mode::PASS)
 {
 	header_.what = record_what_words().at(static_cast<size_t>(settings.what));
-	pair_.pixels.reserve(whole_size(rig));
 	if (settings.last <= 0)
 		writer_ = std::make_unique<EventWriter>(settings.path);
 	thread_ = std::thread([this] { write_all(); });
@@ -159,11 +158,9 @@ void Recorder::add_pair(const StereoPair &pair, const pong_sight &sight)
 	if (settings_.what == RECORD_MESSAGES)
 		return;
 	pairs_++;
-	pack(pair, settings_.what == RECORD_WINDOWS ? worth_keeping_.choose(pair, sight) : whole_of(pair), pairs_,
-	     pair_);
-	const int size = pair_.getEncodedSize();
-	if (uint8_t *room = reserve(static_cast<size_t>(size))) {
-		pair_.encode(room, 0, size);
+	const Parts parts = settings_.what == RECORD_WINDOWS ? worth_keeping_.choose(pair, sight) : whole_of(pair);
+	if (uint8_t *room = reserve(encoded_size(parts))) {
+		encode(pair, parts, pairs_, room);
 		commit("PONGEYE_PAIR", pair.utime);
 	} else {
 		left_out_++;

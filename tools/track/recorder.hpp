@@ -76,7 +76,6 @@ private:
 	const RecordSettings settings_;
 	pongeye::recording_t header_;
 	WorthKeeping worth_keeping_;
-	pongeye::pair_t pair_;
 	RecordQueue queue_;
 	int64_t utime_ = 0; // of the newest record: time in the log never goes back
 	int64_t pairs_ = 0; // that there were
