@@ -1,5 +1,5 @@
-/* Any host on the bus of the trigger's firmware: its requests, taken from the firmware's own sources, with registers that
- * hold what the fuzzer says. An AVR does not stop at a write outside of an array; here it does. */
+/* Any host on the bus of the trigger's firmware: its requests, taken from the firmware's own sources, with registers
+ * that hold what the fuzzer says. An AVR does not stop at a write outside of an array; here it does. */
 #include <avr/io.h>
 #include <stddef.h>
 #include <stdlib.h>

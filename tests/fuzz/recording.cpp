@@ -1,7 +1,4 @@
 // Any bytes as a recording: every pixel of every pair that comes out is read.
-#include <cstdio>
-#include <cstdlib>
-
 #include "bytes_file.hpp"
 #include "program.hpp"
 #include "track/replay.hpp"
@@ -24,7 +21,6 @@ void read_pixels(const pong_image &image)
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-	static const bool quiet = freopen("/dev/null", "w", stderr) != nullptr;
 	const BytesFile file(data, size);
 	try {
 		track::Replay replay(file.path());
@@ -41,5 +37,5 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	} catch (const pong::Failure &) {
 		return 0; // one sentence: as it should be
 	}
-	return quiet ? 0 : 0;
+	return 0;
 }

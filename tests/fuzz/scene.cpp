@@ -1,6 +1,6 @@
 // Any bytes as a scene of the simulator.
-#include "program.hpp"
 #include "simulate/scene.hpp"
+#include "program.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

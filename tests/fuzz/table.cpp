@@ -1,7 +1,7 @@
 // Any bytes as a table: what pongeye-bench scores, and what calibration is refined from.
+#include "table.hpp"
 #include "bytes_file.hpp"
 #include "program.hpp"
-#include "table.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

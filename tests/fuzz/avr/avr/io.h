@@ -19,9 +19,9 @@ uint8_t *bus_count(void); /* UEBCLX */
 /* Those that only take what is written. */
 extern uint8_t USBCON, UHWCON, PLLFRQ, PLLCSR, UDCON, UENUM, UECONX, UECFG0X, UECFG1X, UERST, UDADDR;
 
-enum { TXINI = 0, RXOUTI = 2, RXSTPI = 3, FIFOCON = 7 };                          /* UEINTX */
-enum { EORSTI = 3 };                                                              /* UDINT */
-enum { EPEN = 0, RSTDT = 3, STALLRQ = 5 };                                        /* UECONX */
-enum { EPDIR = 0, EPTYPE0 = 6, EPTYPE1 = 7 };                                     /* UECFG0X */
-enum { ALLOC = 1, EPBK0 = 2, EPSIZE0 = 4, EPSIZE1 = 5 };                          /* UECFG1X */
+enum { TXINI = 0, RXOUTI = 2, RXSTPI = 3, FIFOCON = 7 }; /* UEINTX */
+enum { EORSTI = 3 };                                     /* UDINT */
+enum { EPEN = 0, RSTDT = 3, STALLRQ = 5 };               /* UECONX */
+enum { EPDIR = 0, EPTYPE0 = 6, EPTYPE1 = 7 };            /* UECFG0X */
+enum { ALLOC = 1, EPBK0 = 2, EPSIZE0 = 4, EPSIZE1 = 5 }; /* UECFG1X */
 enum { ADDEN = 7, FRZCLK = 5, USBE = 7, OTGPADE = 4, UVREGE = 0, PDIV2 = 2, PINDIV = 4, PLLE = 1, PLOCK = 0 };
