@@ -57,8 +57,8 @@ override LDFLAGS  += $(SANITIZE_FLAGS)
 
 # Flags of packages; asked for only when something is compiled, after `make deps` may have installed them. As system
 # headers, so that our warnings are about our own code.
-cflags = $(patsubst -I%,-isystem %,$(if $(1),$(shell pkg-config --cflags $(1))))
-libs   = $(if $(1),$(shell pkg-config --libs $(1)))
+cflags = $(patsubst -I%,-isystem %,$(if $(strip $(1)),$(shell pkg-config --cflags $(1))))
+libs   = $(if $(strip $(1)),$(shell pkg-config --libs $(1)))
 
 # As many jobs as there are processors; a line for each thing made, or with V=1 the whole commands.
 MAKEFLAGS += --jobs=$(shell nproc)

@@ -138,6 +138,9 @@ void keep_time(const Source &source, Session &session)
 	const Sinks &sinks = session.sinks;
 	Status &status = session.status;
 	const int64_t now_ns = monotonic_ns();
+	const std::string warning = status.rig_watch().warning();
+	if (!warning.empty())
+		pong::say(warning);
 	if (status.second_over(now_ns)) {
 		status.close_second(now_ns, source.dropped(), source.pulses());
 		if (sinks.publisher)

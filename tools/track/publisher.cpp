@@ -172,6 +172,9 @@ void Publisher::publish(const StatusReport &report)
 	status_.latency_max = report.latency_max;
 	status_.epipolar_mean = report.epipolar_mean;
 	status_.epipolar_rms = report.epipolar_rms;
+	status_.rig_offset = report.rig.mean;
+	status_.rig_offset_sigma = report.rig.sigma;
+	status_.rig_knocked = report.rig.knocked;
 	send("PONGEYE_STATUS", status_, 0);
 }
 
