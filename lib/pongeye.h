@@ -351,6 +351,9 @@ PONG_API void pong_settings_defaults(pong_profile profile, pong_settings *settin
  * *settings is unchanged. Returns PONG_FOUND or the errors of pong_rig_load. */
 PONG_API int pong_settings_load(const char *path, pong_settings *settings, pong_error *error);
 
+/* As pong_settings_load, from text of any length; name stands for the file in errors. */
+PONG_API int pong_settings_parse(const char *text, const char *name, pong_settings *settings, pong_error *error);
+
 /* --------------------------------------------------------------------------------------------------------------
  * Region: where in a picture a ball can be, and how large it is there (paper, section 4.1)
  */

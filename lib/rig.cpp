@@ -212,13 +212,18 @@ std::string list(const double *values, int count, int per_line)
 	return text + "]";
 }
 
+// As a TOML text: quotes and backslashes are escaped, and so are control characters, which it may not hold.
 std::string quoted(const std::string &text)
 {
 	std::string result = "\"";
 	for (const char letter : text) {
-		if (letter == '"' || letter == '\\')
-			result += '\\';
-		result += letter;
+		const auto code = static_cast<unsigned char>(letter);
+		if (code < ' ' || code == 0x7f)
+			result += sentence("\\u%04x", code);
+		else if (letter == '"' || letter == '\\')
+			result += std::string("\\") + letter;
+		else
+			result += letter;
 	}
 	return result + "\"";
 }
