@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "camera.hpp"
+#include "detector.hpp"
 #include "error.hpp"
+#include "outline.hpp"
 #include "region.hpp"
+#include "track.hpp"
 
 namespace pong
 {
@@ -16,7 +19,16 @@ namespace pong
 namespace
 {
 
-const int balls_capacity = 16; // places in one picture that look like a ball
+const int balls_capacity = 16;  // places in one picture that look like a ball
+const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
+const double faint_error = 0.1; // of its centre then, radii
+const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
+// Two centres of a ball agree better than those of anything else that moves: with each other's epipolar lines (px, and
+// parts of the radius), their sizes with the distance (parts), and its outline is seen.
+const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
+const double certain_size = 0.08;
+const double certain_open = 0.13;     // longest part of the outline that may not show: more is an arm's end
+const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Lets a unique_ptr own what a _new of the public header made.
@@ -72,6 +84,7 @@ struct Balls {
 	int count = 0;
 	pong_centre centre[balls_capacity];
 	double contrast[balls_capacity];
+	double open[balls_capacity]; // the longest part of the outline that does not show
 };
 
 // One camera's stages, from picture to centres.
@@ -107,6 +120,16 @@ struct Expectation {
 	double streak[2];
 };
 
+// Where no edges can be located the detection's own centre stands.
+bool locate_faint(const pong_detection &found, const pong_settings &settings, pong_centre *centre)
+{
+	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
+		return false;
+	const double variance = std::pow(faint_error * found.size / 2, 2);
+	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
+	return true;
+}
+
 // Look at the newest picture.
 void look(Side &side, const Expectation &expected, const pong_settings &settings)
 {
@@ -122,8 +145,12 @@ void look(Side &side, const Expectation &expected, const pong_settings &settings
 	const double *streak = expected.streaked ? expected.streak : nullptr;
 	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
 	for (int i = 0; i < count; i++) {
-		if (!pong_locate(&side.camera, &pictures, &found[i], streak, &settings, &balls.centre[balls.count]))
+		pong_centre &centre = balls.centre[balls.count];
+		if (!pong_locate(&side.camera, &pictures, &found[i], streak, &settings, &centre) &&
+		    !locate_faint(found[i], settings, &centre))
 			continue;
+		balls.open[balls.count] =
+			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).open;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
 }
@@ -158,6 +185,7 @@ namespace
 struct Match {
 	const pong_centre *left, *right;
 	pong_point point;
+	double doubt; // below 1: this is a ball and nothing else
 };
 
 // Where the ball that is followed must be now.
@@ -168,26 +196,59 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 	       pong_predict_at(&eye.rig, &recent, utime, &eye.settings, expected);
 }
 
-// Of all pairs of centres that can be one ball: the nearest to where it is expected, or else the brightest.
+// How badly the two centres agree, and the ball shows, in parts of what a ball never exceeds.
+double doubt_of(const pong_eye &eye, const Match &match, double open)
+{
+	const pong_centre *centre[2] = {match.left, match.right};
+	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
+	const double reach = certain_epipolar + certain_epipolar_size * (match.left->radius + match.right->radius) / 2;
+	double doubt = std::abs(pong_epipolar_distance(eye.rig.camera, left_uv, right_uv)) / reach;
+	for (int side = 0; side < 2; side++) {
+		const double expected =
+			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
+		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
+	}
+	return std::max(doubt, open / certain_open);
+}
+
+// Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
+// brightest; at best the one of least doubt, near to where it is expected.
+double cost_of(const pong_eye &eye, const pong_state *expected, const Match &match, double contrast)
+{
+	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm() : 0;
+	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
+		return expected ? distance : -contrast;
+	return match.doubt + distance / doubtful_distance;
+}
+
 bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 {
 	const Balls &left = eye.side[PONG_LEFT].balls, &right = eye.side[PONG_RIGHT].balls;
 	double best_cost = std::numeric_limits<double>::infinity();
 	for (int l = 0; l < left.count; l++)
 		for (int r = 0; r < right.count; r++) {
-			Match match = {&left.centre[l], &right.centre[r], {}};
+			Match match = {&left.centre[l], &right.centre[r], {}, 0};
 			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
 			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
-			const double cost =
-				expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm()
-					 : -left.contrast[l] - right.contrast[r];
+			match.doubt = doubt_of(eye, match, std::max(left.open[l], right.open[r]));
+			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
 			if (cost < best_cost) {
 				best_cost = cost;
 				*best = match;
 			}
 		}
 	return best_cost < std::numeric_limits<double>::infinity();
+}
+
+// Where nothing else moves, what looks like a ball is one.
+Trust trust_of(const pong_eye &eye, const Match &match)
+{
+	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
+		return Trust::usual;
+	if (cluttered(*eye.side[PONG_LEFT].detector) || cluttered(*eye.side[PONG_RIGHT].detector))
+		return match.doubt < 1 ? Trust::likely : Trust::none;
+	return match.doubt < 1 ? Trust::certain : Trust::usual;
 }
 
 void expect(pong_eye &eye)
@@ -263,7 +324,7 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 
 void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 {
-	if (pong_track_push(eye.track.get(), &match.point) == PONG_TRACK_REJECTED) {
+	if (push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}

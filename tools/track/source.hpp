@@ -1,4 +1,4 @@
-// Where stereo pairs come from: a folder of pictures, or two cameras.
+// Where stereo pairs come from: two cameras, a folder of pictures, or a recording.
 #pragma once
 
 #include <cstdint>

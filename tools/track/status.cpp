@@ -33,6 +33,7 @@ void Status::count(const pong_sight &sight, double latency_s)
 	second_.add(latency_s);
 	run_.add(latency_s);
 	epipolar_[epipolar_count_++ % EPIPOLAR_BALLS] = sight.ball.epipolar_distance;
+	rig_watch_.see(sight.ball);
 }
 
 bool Status::second_over(int64_t now_ns) const
@@ -58,6 +59,7 @@ void Status::close_second(int64_t now_ns, const Source &source)
 	report_.latency_p99 = second_.percentile(0.99);
 	report_.latency_max = second_.max();
 	measure_epipolar();
+	report_.rig = rig_watch_.offset();
 	second_.clear();
 	pairs_before_ = pairs_;
 	balls_before_ = balls;

@@ -8,6 +8,7 @@
 
 #include "latency.hpp"
 #include "pongeye.h"
+#include "rig_watch.hpp"
 #include "source.hpp"
 
 namespace track
@@ -23,6 +24,7 @@ struct StatusReport {
 	double pair_rate = NAN, ball_rate = NAN;                           // per second
 	double latency_median = NAN, latency_p99 = NAN, latency_max = NAN; // s
 	double epipolar_mean = NAN, epipolar_rms = NAN;                    // px
+	RigOffset rig;
 };
 
 class Status
@@ -44,6 +46,11 @@ public:
 		return report_;
 	}
 
+	RigWatch &rig_watch()
+	{
+		return rig_watch_;
+	}
+
 	// The whole run in one line.
 	std::string summary(const Source &source) const;
 
@@ -58,6 +65,7 @@ private:
 	Latencies second_, run_;
 	std::array<double, EPIPOLAR_BALLS> epipolar_ = {}; // of the last balls, px
 	size_t epipolar_count_ = 0;
+	RigWatch rig_watch_;
 	StatusReport report_;
 };
 
