@@ -69,6 +69,6 @@ check "several tables are taken together" "$bin/pongeye-calibrate" --refine-from
 	--rig "$work/refined.toml" --output "$work/again.toml"
 check "one section tells of it" test "$(grep -c '^\[refinement\]' "$work/again.toml")" -eq 1
 check "a rig that is right stays right" at_most "$(off "$work/again.toml")" 2
-check_refusal "a recording is refused with what to do" 1 "let pongeye-track make a table of it" \
+check_refusal "a recording is refused with what to do" 1 "--output FILE makes a table of it" \
 	"$bin/pongeye-calibrate" --refine-from "$work/some.lcm" --rig "$work/refined.toml" --output "$work/no.toml"
 finish

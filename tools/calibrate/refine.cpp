@@ -44,13 +44,14 @@ void add_sightings(const std::string &path, std::vector<pong_sighting> &sighting
 	}
 }
 
-// Tables only: a recording is made one by pongeye-track.
+// Tables only: pongeye-track makes one of a recording.
 std::vector<pong_sighting> read_sightings(const std::vector<std::string> &paths)
 {
 	std::vector<pong_sighting> sightings;
 	for (const std::string &path : paths) {
 		if (path.size() > 4 && path.substr(path.size() - 4) == ".lcm")
-			throw pong::Failure(path + ": a recording; let pongeye-track make a table of it by --output");
+			throw pong::Failure(path + ": a recording; pongeye-track --replay " + path +
+					    " --output FILE makes a table of it");
 		add_sightings(path, sightings);
 	}
 	return sightings;

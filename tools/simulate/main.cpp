@@ -133,8 +133,6 @@ void say_counts(const gige::Server &server)
 
 void serve_cameras(const Request &request, const sim::Scene &scene, int64_t frames)
 {
-	if (!request.rig.empty())
-		sim::write_text(request.rig, sim::rig_text(sim::make_rig(scene.rig), scene.hit_z));
 	sim::LiveWorld world(scene, static_cast<uint64_t>(request.seed), request.rate, request.truth);
 	gige::ServerSettings settings;
 	settings.cameras = {{"127.0.0.1", "SIML"}, {"127.0.0.2", "SIMR"}};
@@ -147,6 +145,9 @@ void serve_cameras(const Request &request, const sim::Scene &scene, int64_t fram
 		inject(request.miss, settings);
 	inject_faults(request, scene, settings);
 	gige::Server server(settings, world);
+	// From here on the cameras can be reached: whoever waits for the rig may come.
+	if (!request.rig.empty())
+		sim::write_text(request.rig, sim::rig_text(sim::make_rig(scene.rig), scene.hit_z));
 	pong::say(pong::format("cameras on 127.0.0.1 (left) and 127.0.0.2 (right), %g pulses a second, scene %s",
 			       request.rate, request.scene.c_str()));
 	server.run(frames);
