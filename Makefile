@@ -15,7 +15,7 @@ LIB := \
 	rig camera settings \
 	calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate_refine calibrate \
 	region \
-	cells conditions patch five_points blob detect_difference detect_double detect \
+	cells conditions patch five_points blob outline circles detect_difference detect_double detect \
 	cone locate_gaussian locate_centroid locate_edges sphere locate_photometric locate \
 	reconstruct \
 	flight physics trajectory noise estimate halves track \
@@ -151,7 +151,7 @@ $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
 # Live calibration looks through the tracker's cameras.
 $(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
-	pairing.o pulse_numbering.o)
+	pairing.o presence.o pulse_numbering.o realtime.o seat.o)
 
 # The benchmark of calibration finds corners as calibration does.
 $(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)
@@ -232,12 +232,13 @@ install: all
 
 # --- The rest
 
-.PHONY: help sanitize tsan format lint clean
+.PHONY: help sanitize tsan soak format lint clean
 help:
 	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
 	@echo "  make check      the tests, without installing anything"
 	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "  make tsan       the unit tests under ThreadSanitizer"
+	@echo "  make soak       the tracker under random faults, for MINUTES=10"
 	@echo "  make fuzz       any bytes into every parser, under sanitizers; FUZZ_SECONDS=300 each"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"
@@ -251,6 +252,10 @@ sanitize: deps
 tsan:
 	$(MAKE) $(BUILD)-tsan/tests/unit BUILD=$(BUILD)-tsan SANITIZE=thread OPTIMISE='-O1 -g'
 	$(BUILD)-tsan/tests/unit
+
+MINUTES ?= 10
+soak: all
+	BUILD=$(BUILD) tests/soak.sh $(MINUTES)
 
 SOURCES := $(shell git ls-files '*.cpp' '*.hpp' '*.c' '*.h' 2>/dev/null)
 

@@ -616,6 +616,28 @@ PONG_API void pong_eye_free(pong_eye *eye);
 PONG_API int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 			   pong_sight *sight, pong_error *error);
 
+/* The same in steps, for those who have a thread for each camera:
+ *
+ *     pong_eye_expect(eye, utime)                         first, in one thread
+ *     pong_eye_look(eye, PONG_LEFT, &left, &error)        both at the same time, each in its own thread,
+ *     pong_eye_look(eye, PONG_RIGHT, &right, &error)      or one after the other
+ *     pong_eye_join(eye, frame, &sight)                   when both have returned
+ *
+ * What comes of it is that of pong_eye_push, to the bit. Whoever uses threads makes the earlier step's writes seen by
+ * the later one, as any mutex or condition variable does. */
+
+/* Begin with the pair exposed at `utime`: work out where its ball must be. That can be done before the pictures are
+ * there. Returns PONG_FOUND, or PONG_NONE where the pair is not later than the one before: drop it then. */
+PONG_API int pong_eye_expect(pong_eye *eye, int64_t utime);
+
+/* Look at one camera's picture of the pair; it is copied. Returns how many places look like a ball, or
+ * PONG_ERROR_VALUE if the picture has not its camera's size. */
+PONG_API int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error);
+
+/* End the pair, both pictures of which were looked at. *sight is always filled. Returns PONG_FOUND with a ball,
+ * PONG_NONE without. */
+PONG_API int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight);
+
 #ifdef __cplusplus
 }
 #endif

@@ -122,7 +122,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->region.distance[1] = 12;
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;
 	settings->detect.gap = 8;
-	settings->detect.contrast = 8;
+	settings->detect.contrast = profile == PONG_PAPER ? 8 : 3;
 	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_PHOTOMETRIC;
 	settings->locate.sigma = 0.3;
 	settings->reconstruct.method = profile == PONG_PAPER ? PONG_RECONSTRUCT_LINEAR : PONG_RECONSTRUCT_LIKELY;

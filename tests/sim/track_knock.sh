@@ -35,7 +35,6 @@ track() { # rig: $work/track.txt, $work/track.log
 off() { # rig: how far it puts points over the table from the truth, mean, mm
 	"$bin/pongeye-bench" calibration --truth "$work/flights/rig.toml" --rig "$1" | awk '!/#/ { print $2 }'
 }
-at_most() { awk -v value="$1" -v bound="$2" 'BEGIN { exit !(value + 0 == value && value <= bound) }'; }
 
 track "$work/flights/rig.toml"
 sed 's/^/# /' "$work/track.log"

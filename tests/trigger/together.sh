@@ -43,7 +43,8 @@ awk '
 # truth begins after its 23 columns, with utime $25, frame $26, position $28 $29 $30, centres $37 to $40, and whether the
 # ball is wholly in each picture, $41 $42; then come the centres of the pulse before, $47 to $50, and after, $51 to $54.
 #
-# A picture of another pulse shows the ball nearer to where it was then. That can be told of balls wholly in the picture;
+# A picture of another pulse shows the ball nearer to where it was then; a ball that comes straight at the camera moves by
+# as little as 0.4 px a pulse, so only what is more than 1.5 px off is judged. It can be told of balls wholly in the picture;
 # of one that its border cuts the visible part is located, which may be 12 px away. Where such a ball is published is
 # judged by `far`, like all others.
 awk -v pulses=$pulses -v every=$every '
@@ -65,6 +66,7 @@ awk -v pulses=$pulses -v every=$every '
 			if (!$(41 + side)) { cut++; continue }
 			compared++
 			own = apart(4 + 2 * side, 37 + 2 * side)
+			if (own <= 1.5 ^ 2) continue
 			if (own > apart(4 + 2 * side, 47 + 2 * side) || own > apart(4 + 2 * side, 51 + 2 * side)) wrong_pair++
 		}
 		across = sqrt(($8 - $28) ^ 2 + ($9 - $29) ^ 2)

@@ -78,7 +78,8 @@ bool parse_arguments(int argc, char **argv, Arguments &arguments)
 		       &arguments.record_last, 0.1, 3600);
 	options.flag("--live", "print the live table on stderr (default where that is a terminal)", &arguments.live);
 	options.number("--seconds", "S", "stop after S seconds", &arguments.seconds, 1e-3, 1e9);
-	options.flag("--list", "list the cameras that can be reached, and exit", &arguments.list);
+	options.flag("--list", "list the cameras that can be reached and what they are set to, and exit",
+		     &arguments.list);
 	if (!options.parse(argc, argv))
 		return false;
 	check(options, arguments);

@@ -20,6 +20,7 @@
 #include "setup.hpp"
 #include "status.hpp"
 #include "trigger_listener.hpp"
+#include "two_eyes.hpp"
 
 namespace track
 {
@@ -110,13 +111,6 @@ int64_t end_after(double seconds)
 	return seconds > 0 ? monotonic_ns() + std::llround(seconds * 1e9) : INT64_MAX;
 }
 
-void look(pong_eye *eye, const StereoPair &pair, pong_sight &sight)
-{
-	pong_error error;
-	if (pong_eye_push(eye, pair.utime, pair.frame, &pair.left, &pair.right, &sight, &error) < 0)
-		throw pong::Failure(pong::format("pair %lld: %s", static_cast<long long>(pair.frame), error.text));
-}
-
 // Publishing comes first: somebody swings at it.
 void deliver(const StereoPair &pair, const pong_sight &sight, Session &session)
 {
@@ -142,7 +136,7 @@ void keep_time(const Source &source, Session &session)
 	if (!warning.empty())
 		pong::say(warning);
 	if (status.second_over(now_ns)) {
-		status.close_second(now_ns, source.dropped(), source.pulses());
+		status.close_second(now_ns, source);
 		if (sinks.publisher)
 			sinks.publisher->publish(status.report());
 	}
@@ -160,9 +154,10 @@ void track_ball(Source &source, Session &session)
 	StereoPair pair;
 	pong_sight sight;
 	Next next;
+	TwoEyes eyes(session.eye.get(), source.is_live() ? TRACKING_PRIORITY : 0);
 	while (!pong::stop_requested() && (next = source.next(pair)) != Next::END) {
 		if (next == Next::PAIR) {
-			look(session.eye.get(), pair, sight);
+			eyes.look(pair, sight);
 			deliver(pair, sight, session);
 		}
 		keep_time(source, session);
@@ -189,7 +184,7 @@ int run(int argc, char **argv)
 	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
 	track_ball(*source, session);
 	session.sinks.live.reset();
-	pong::say(session.status.summary(source->dropped(), source->pulses()));
+	pong::say(session.status.summary(*source));
 	return session.sinks.recording && !session.sinks.recording->finish();
 }
 

@@ -165,6 +165,14 @@ void Publisher::publish(const StatusReport &report)
 	status_.rejected = report.outcomes[PONG_REJECTED];
 	status_.missed_left = report.missed_left;
 	status_.missed_right = report.missed_right;
+	status_.unpaired = report.causes.unpaired;
+	status_.incomplete = report.causes.incomplete;
+	status_.late = report.causes.late;
+	status_.repeated = report.causes.repeated;
+	status_.camera_left = static_cast<int8_t>(report.cameras[PONG_LEFT].state);
+	status_.camera_right = static_cast<int8_t>(report.cameras[PONG_RIGHT].state);
+	status_.losses_left = report.cameras[PONG_LEFT].losses;
+	status_.losses_right = report.cameras[PONG_RIGHT].losses;
 	status_.pair_rate = report.pair_rate;
 	status_.ball_rate = report.ball_rate;
 	status_.latency_median = report.latency_median;
