@@ -26,7 +26,7 @@ fuzz: deps
 fuzz-programs: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
 
 # What each reads with.
-FUZZ_OBJECTS_rig       := track/capture_settings
+FUZZ_OBJECTS_rig       := track/capture_settings calibrate/rig_edit
 FUZZ_OBJECTS_scene     := $(addprefix simulate/,scene section text_file room texture sensor serve camera ball flight)
 FUZZ_OBJECTS_table     :=
 FUZZ_OBJECTS_points    := predict/points predict/follow

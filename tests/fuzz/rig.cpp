@@ -1,11 +1,12 @@
 // Any bytes as rig.toml: the rig, the settings, and what the cameras are told. What reads as a rig must be written and
-// read again to the same.
+// read again to the same, and a camera in it can be changed in place, or is refused.
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include "bytes_file.hpp"
+#include "calibrate/rig_edit.hpp"
 #include "pongeye.h"
 #include "program.hpp"
 #include "track/capture_settings.hpp"
@@ -27,16 +28,29 @@ void check_round_trip(const pong_rig &rig)
 		abort();
 }
 
+void check_edit(const std::string &text, const pong_rig &rig)
+{
+	pong_camera camera = rig.camera[PONG_RIGHT];
+	camera.P[0][3] += 1;
+	try {
+		calibrate::with_camera(text, "fuzz", PONG_RIGHT, camera);
+	} catch (const pong::Failure &) {
+		return; // one sentence: as it should be
+	}
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-	const std::string text(reinterpret_cast<const char *>(data), size);
+	const std::string bytes(reinterpret_cast<const char *>(data), size), text = bytes.c_str();
 	pong_rig rig;
 	pong_settings settings;
 	pong_error error;
-	if (pong_rig_parse(text.c_str(), "fuzz", &rig, &error) > 0)
+	if (pong_rig_parse(text.c_str(), "fuzz", &rig, &error) > 0) {
 		check_round_trip(rig);
+		check_edit(text, rig);
+	}
 	pong_settings_defaults(PONG_BEST, &settings);
 	pong_settings_parse(text.c_str(), "fuzz", &settings, &error);
 	const BytesFile file(data, size);
