@@ -21,10 +21,11 @@ const int missed_allowed = 2;      // of eight
 const double beside = 1.5;         // of the outline, where the step's two levels are read, px
 const double step_noise = 4;       // least step, standard deviations of a pixel
 const double size_step = 1.2;      // from one size to the next
+const int grid_least = 2;          // px
 const double grid = 0.3;           // from one place to the next, radii
 const size_t passed_capacity = 24; // circles that pass the first test, the strongest
 const size_t refined_most = 6;     // and the second
-const double shown_needed = 0.75;  // of the outline, after refinement
+const double shown_first = 0.6;    // of the outline, before that
 const double step_needed = 8;      // and its step, standard deviations of a pixel
 const double radius_least = 3;     // px; smaller circles are everywhere
 const int refinements = 6;
@@ -79,8 +80,8 @@ struct Circle {
 class CircleSearch
 {
 public:
-	CircleSearch(const pong_image &image, const BallLimits &limits, double noise)
-		: image_(image), limits_(limits), noise_(noise)
+	CircleSearch(const pong_image &image, const BallLimits &limits, double noise, double shown_needed)
+		: image_(image), limits_(limits), noise_(noise), shown_needed_(shown_needed)
 	{
 	}
 
@@ -114,13 +115,13 @@ public:
 
 	bool is_ball(const Circle &circle) const
 	{
-		return circle.outline.shown >= shown_needed && circle.outline.step >= step_needed * noise_;
+		return circle.outline.shown >= shown_needed_ && circle.outline.step >= step_needed * noise_;
 	}
 
 private:
 	const pong_image &image_;
 	const BallLimits &limits_;
-	double noise_;
+	double noise_, shown_needed_;
 };
 
 // Whether what is around the centre is new: most of five points inside of the circle.
@@ -188,7 +189,7 @@ void probe_circles(const pong_image &image, const Patch &patch, const Area &area
 		   Passed *passed)
 {
 	const Probe probe(radius, image.stride);
-	const int every = std::max(1, static_cast<int>(grid * radius)), half = static_cast<int>(radius / 2);
+	const int every = std::max(grid_least, static_cast<int>(grid * radius)), half = static_cast<int>(radius / 2);
 	const Area inside =
 		intersect(area, {probe.reach, image.width - probe.reach, probe.reach, image.height - probe.reach});
 	for (int v = inside.v_begin; v < inside.v_end; v += every)
@@ -202,9 +203,9 @@ void probe_circles(const pong_image &image, const Patch &patch, const Area &area
 } // namespace
 
 int find_circles(const pong_image &image, const Patch &patch, const Area &area, const BallLimits &limits, double noise,
-		 pong_detection *found, int count, int capacity)
+		 double shown_needed, pong_detection *found, int count, int capacity)
 {
-	const CircleSearch search(image, limits, noise);
+	const CircleSearch search(image, limits, noise, shown_needed);
 	const int level = static_cast<int>(patch_one * lit_level(0, limits));
 	const int step = static_cast<int>(std::ceil(step_noise * noise));
 	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
@@ -217,6 +218,8 @@ int find_circles(const pong_image &image, const Patch &patch, const Area &area, 
 	std::sort(passed.begin(), passed.end(), [](const Circle &a, const Circle &b) { return a.score() > b.score(); });
 	const Circle *last = std::min(passed.end(), passed.begin() + refined_most);
 	for (const Circle *circle = passed.begin(); circle != last; circle++) {
+		if (circle->outline.shown < shown_first)
+			continue;
 		const Circle fine = search.refined(*circle);
 		if (search.is_ball(fine) && !is_known(fine, found, count))
 			count = insert_detection({fine.u, fine.v, 2 * fine.radius, fine.outline.step}, found, count,

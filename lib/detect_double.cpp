@@ -35,6 +35,8 @@ const int sampled_cells = 64;                 // of each
 const int close_margin = 6;                   // a group is looked at with so many pixels around, px
 const double close_noise = 1.5;               // the noise of a patch's 3 x 3 mean, over that of a cell's
 const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
+const double shown_anywhere = 0.85;           // of a ball's outline, where something else moves around it,
+const double shown_in_window = 0.75;          // and where one is expected there
 const int clutter_cells = 4;                  // noise alone lights no groups of so many cells
 const double pixel_noise = cell_size / 1.414; // a pixel's noise over that of the difference of two cells' means
 
@@ -273,8 +275,8 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	cluttered_ |= group.cells >= clutter_cells;
 	if (extent < larger * limits.size_min)
 		return count;
-	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise, found, count,
-			    capacity);
+	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise,
+			    window ? shown_in_window : shown_anywhere, found, count, capacity);
 }
 
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,

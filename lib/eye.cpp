@@ -27,7 +27,7 @@ const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
 // parts of the radius), their sizes with the distance (parts), and its outline is seen.
 const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
 const double certain_size = 0.08;
-const double certain_open = 0.13;     // longest part of the outline that may not show: more is an arm's end
+const double certain_shown = 0.87;    // of the outline: an arm's end shows less
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -84,7 +84,7 @@ struct Balls {
 	int count = 0;
 	pong_centre centre[balls_capacity];
 	double contrast[balls_capacity];
-	double open[balls_capacity]; // the longest part of the outline that does not show
+	double shown[balls_capacity]; // of the outline
 };
 
 // One camera's stages, from picture to centres.
@@ -120,11 +120,13 @@ struct Expectation {
 	double streak[2];
 };
 
-// Where no edges can be located the detection's own centre stands.
-bool locate_faint(const pong_detection &found, const pong_settings &settings, pong_centre *centre)
+// The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
+// detection's own centre stands.
+bool locate(const Side &side, const pong_pictures &pictures, const pong_detection &found, const double *streak,
+	    const pong_settings &settings, pong_centre *centre)
 {
 	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
-		return false;
+		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
 	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
 	return true;
@@ -146,11 +148,10 @@ void look(Side &side, const Expectation &expected, const pong_settings &settings
 	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
 	for (int i = 0; i < count; i++) {
 		pong_centre &centre = balls.centre[balls.count];
-		if (!pong_locate(&side.camera, &pictures, &found[i], streak, &settings, &centre) &&
-		    !locate_faint(found[i], settings, &centre))
+		if (!locate(side, pictures, found[i], streak, settings, &centre))
 			continue;
-		balls.open[balls.count] =
-			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).open;
+		balls.shown[balls.count] =
+			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).shown;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
 }
@@ -197,7 +198,7 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 }
 
 // How badly the two centres agree, and the ball shows, in parts of what a ball never exceeds.
-double doubt_of(const pong_eye &eye, const Match &match, double open)
+double doubt_of(const pong_eye &eye, const Match &match, double shown)
 {
 	const pong_centre *centre[2] = {match.left, match.right};
 	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
@@ -208,7 +209,7 @@ double doubt_of(const pong_eye &eye, const Match &match, double open)
 			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
 		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
 	}
-	return std::max(doubt, open / certain_open);
+	return std::max(doubt, (1 - shown) / (1 - certain_shown));
 }
 
 // Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
@@ -231,7 +232,7 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
 			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
-			match.doubt = doubt_of(eye, match, std::max(left.open[l], right.open[r]));
+			match.doubt = doubt_of(eye, match, std::min(left.shown[l], right.shown[r]));
 			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
 			if (cost < best_cost) {
 				best_cost = cost;

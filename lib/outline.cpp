@@ -10,8 +10,6 @@ namespace
 {
 
 const int sectors = 16;
-// Those of sector_of, as they follow each other around the circle.
-const int around[sectors] = {0, 1, 3, 2, 10, 11, 9, 8, 12, 13, 15, 14, 6, 7, 5, 4};
 const double gap = 1;            // between the outline and what is compared, px: the lens blurs,
 const double depth = 2;          // and how deep that is, px
 const double step_noise = 3;     // a step of so many standard deviations of its noise is one,
@@ -72,20 +70,14 @@ Outline measure_outline(const pong_image &image, double u, double v, double radi
 		measured += inside.count[i] > 0 && outside.count[i] > 0;
 	}
 	const double mean = sum / std::max(measured, 1);
-	int shown = 0, missing = 0, open = 0;
-	for (int i = 0; i < 2 * sectors; i++) { // twice around: what is open may begin before the first
-		const int sector = around[i % sectors];
-		const double in_count = inside.count[sector], out_count = outside.count[sector];
-		const bool seen = in_count > 0 && out_count > 0;
-		const double of_noise = seen ? step_noise * noise * std::sqrt(1 / in_count + 1 / out_count) : 0;
-		const bool shows = steps[sector] > std::max(of_noise, step_part * mean);
-		shown += i < sectors && shows;
-		missing = seen && !shows ? missing + 1 : 0;
-		open = std::max(open, missing);
+	int shown = 0;
+	for (int i = 0; i < sectors; i++) {
+		if (!(inside.count[i] > 0 && outside.count[i] > 0))
+			continue;
+		const double of_noise = step_noise * noise * std::sqrt(1 / inside.count[i] + 1 / outside.count[i]);
+		shown += steps[i] > std::max(of_noise, step_part * mean);
 	}
-	if (measured < sectors / 2)
-		return {0, 1, mean};
-	return {static_cast<double>(shown) / measured, static_cast<double>(std::min(open, sectors)) / sectors, mean};
+	return {measured < sectors / 2 ? 0 : static_cast<double>(shown) / measured, mean};
 }
 
 } // namespace pong

@@ -9,7 +9,6 @@ namespace pong
 // The step in grey level from just outside to just inside of a circle, all round it.
 struct Outline {
 	double shown; // the part of the circle where there is a step that noise does not make
-	double open;  // and the longest stretch of it without
 	double step;  // its mean magnitude, grey levels
 };
 
