@@ -191,7 +191,7 @@ bool find_ball(pong_eye &eye, int64_t utime, const pong_image image[2], pong_sig
 		expecting &&
 		pong_window_around(&eye.rig, PONG_LEFT, expected.position, &eye.settings, &window[PONG_LEFT]) &&
 		pong_window_around(&eye.rig, PONG_RIGHT, expected.position, &eye.settings, &window[PONG_RIGHT]);
-	double streak[2][2];
+	double streak[2][3];
 	bool streaked[2];
 	for (int side = 0; side < 2; side++)
 		streaked[side] = expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
