@@ -15,7 +15,7 @@ const float outside = 3.5f;        // of the outline, how far pixels are looked 
 const float rim = 2.5f;            // inside of it, how far all are, px
 const float bare = 1.75f;          // so far outside only background is seen, px
 const int inner_part = 5;          // of the inside, one pixel in so many
-const int outline_pixels = 600;    // of the outline of a large ball, about so many
+const int outline_pixels = 450;    // of the outline of a large ball, about so many
 const double background_error = 5; // of an earlier picture that shows what is behind the ball, but for its light: grey
 				   // levels, standard deviation
 const double light_change = 0.4;   // of that light, at most

@@ -18,17 +18,17 @@ namespace pong
 namespace
 {
 
-const float step = 0.5f;  // between samples of a ray, px
 const double lens = 1.5;  // half of the width of a step that the lens and the pixels blur, px
 const float beyond = 1.5; // how far the outside, where only background is seen, is watched, px
 const int samples_max = 192;
-const float contrast_needed = 5;   // between ball and background, grey levels
-const float background_error = 6;  // of an earlier picture that shows what is behind the ball, grey levels
-const double shading_error = 0.06; // of an edge, px: brightness is not continued perfectly
-const double noise_error = 2.5;    // of an edge: grey levels times pixels, over the contrast
-const double common_error = 0.12;  // of the centre, px: what shading does to all edges of a side alike
-const double seen_least = 0.7;     // of the rays of a ball that nothing covers
-const int coarse_rays = 16;        // of the first pass, which only tells where to look closely
+const float contrast_needed = 5;              // between ball and background, grey levels
+const float background_error = 6;             // of an earlier picture that shows what is behind the ball, grey levels
+const double shading_error = 0.06;            // of an edge, px: brightness is not continued perfectly
+const double noise_error = 2.5;               // of an edge: grey levels times pixels, over the contrast
+const double common_error = 0.12;             // of the centre, px: what shading does to all edges of a side alike
+const double seen_least = 0.7;                // of the rays of a ball that nothing covers
+const int coarse_rays = 16;                   // of the first pass, which only tells where to look closely
+const float coarse_step = 1, fine_step = 0.5; // between samples of a ray, px
 const int passes = 2;
 
 // The outline as far as it is known.
@@ -36,11 +36,13 @@ struct Circle {
 	Vector2 centre;
 	double radius;
 	double uncertainty; // of the radius along any ray, px
+	int rays;           // to look along
+	float step;         // between their samples, px
 };
 
 // One ray's samples, at distances begin + i * step from the centre.
 struct Profile {
-	float begin;
+	float begin, step;
 	int count, watched; // samples; the last of them see background only
 	int u[samples_max], v[samples_max];
 	float right[samples_max], below[samples_max]; // of the pixel's corner, parts of a pixel
@@ -150,8 +152,9 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 	const double depth = std::max(3.0, 0.2 * circle.radius); // of the ball's inside that tells its brightness
 	Profile profile;
 	profile.begin = static_cast<float>(std::max(0.0, circle.radius - blur - depth));
-	profile.watched = static_cast<int>(beyond / step);
-	profile.count = static_cast<int>((static_cast<float>(circle.radius + blur) - profile.begin) / step) + 1 +
+	profile.step = circle.step;
+	profile.watched = static_cast<int>(beyond / circle.step);
+	profile.count = static_cast<int>((static_cast<float>(circle.radius + blur) - profile.begin) / circle.step) + 1 +
 			profile.watched;
 	if (profile.count > samples_max ||
 	    !inside_picture(task.pictures.current,
@@ -162,7 +165,8 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 	fill_background(task.pictures, profile);
 	// Up to here there is nothing but ball.
 	const int inner =
-		1 + static_cast<int>(std::lround(std::min(depth, circle.radius - blur) / static_cast<double>(step)));
+		1 +
+		static_cast<int>(std::lround(std::min(depth, circle.radius - blur) / static_cast<double>(circle.step)));
 	if (inner < 2)
 		return none;
 	const Shading shading = fit_shading(profile, inner);
@@ -174,7 +178,7 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 	}
 	if (!(contrast >= contrast_needed))
 		return none;
-	const double place = static_cast<double>(profile.begin + (cover - 0.5f) * step);
+	const double place = static_cast<double>(profile.begin + (cover - 0.5f) * circle.step);
 	if (!(std::abs(place - circle.radius) < blur))
 		return none;
 	return {circle.centre + place * direction,
@@ -183,12 +187,13 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 
 int ray_count(double radius)
 {
-	return std::clamp(static_cast<int>(2.5 * radius), 24, 40);
+	return std::clamp(static_cast<int>(2.5 * radius), 24, 32);
 }
 
-bool fit_edges(const LocateTask &task, const Camera &camera, const Circle &circle, int rays, ConeFit *fit)
+bool fit_edges(const LocateTask &task, const Camera &camera, const Circle &circle, ConeFit *fit)
 {
 	EdgePoint points[edge_points_max];
+	const int rays = circle.rays;
 	int count = 0;
 	const double cosine = std::cos(2 * M_PI / rays), sine = std::sin(2 * M_PI / rays);
 	Vector2 direction(1, 0);
@@ -208,13 +213,12 @@ bool locate_edges(const LocateTask &task, pong_centre *centre)
 {
 	const Camera camera(task.camera);
 	const double radius = task.detection.size / 2;
-	Circle circle = {{task.detection.u, task.detection.v}, radius, 1 + 0.1 * radius};
+	Circle circle = {{task.detection.u, task.detection.v}, radius, 1 + 0.1 * radius, coarse_rays, coarse_step};
 	ConeFit fit;
 	for (int pass = 0; pass < passes; pass++) {
-		const int rays = pass == 0 ? coarse_rays : ray_count(circle.radius);
-		if (!fit_edges(task, camera, circle, rays, &fit))
+		if (!fit_edges(task, camera, circle, &fit))
 			return false;
-		circle = {fit.centre, fit.radius, 0.5};
+		circle = {fit.centre, fit.radius, 0.5, ray_count(fit.radius), fine_step};
 	}
 	const double scale = std::max(1.0, fit.residual);
 	const Matrix2 covariance = scale * scale * fit.covariance + common_error * common_error * Matrix2::Identity();
@@ -225,7 +229,7 @@ bool locate_edges(const LocateTask &task, pong_centre *centre)
 			   inside_picture(task.pictures.current, fit.centre + Vector2::Constant(fit.radius));
 	if (!whole)
 		centre->flags |= PONG_CENTRE_CUT;
-	else if (fit.used < seen_least * ray_count(fit.radius))
+	else if (fit.used < seen_least * circle.rays)
 		centre->flags |= PONG_CENTRE_COVERED;
 	return true;
 }

@@ -43,7 +43,7 @@ using Normal = Eigen::Matrix<double, sphere_parameters, sphere_parameters>;
 // nearer, both its distance from that ray and its radius grow like 1 / depth.
 Streak make_streak(const Vector2 &half, double growth)
 {
-	const double spacing = 1.2; // px; the blurred step is wider
+	const double spacing = 1.5; // px; the blurred step is wider
 	const double length = 2 * half.norm();
 	Streak streak = {};
 	streak.count = 1;

@@ -1,5 +1,6 @@
 // How exactly the ball's centre is found: the paper's 60 places under several lights, at rest and moving, by every
 // method of ours and by OpenCV's, on the same pictures.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -52,7 +53,7 @@ struct Score {
 	double error = 0, error_most = 0;        // m, in space
 	double sum[2] = {}, sum2[2] = {};        // of a centre's error, px
 	double normalised2 = 0, normalised3 = 0; // errors squared, by their covariances
-	double us = 0;
+	std::vector<double> us;
 };
 
 struct Settings {
@@ -78,7 +79,7 @@ public:
 		for (int side = 0; side < 2; side++) {
 			const auto begin = Clock::now();
 			const bool found = locate(method, static_cast<pong_side>(side), &centre[side]);
-			score->us += std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+			score->us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
 			both &= found;
 			if (found)
 				add_centre(centre[side], shot_.uv[side], score);
@@ -297,6 +298,14 @@ void measure(const Condition &condition, const Settings &settings, Score scores[
 	}
 }
 
+double median(std::vector<double> values)
+{
+	if (values.empty())
+		return NAN;
+	std::sort(values.begin(), values.end());
+	return values[values.size() / 2];
+}
+
 std::string name_of(const Condition &condition)
 {
 	std::string name = condition.name;
@@ -312,7 +321,7 @@ void print_row(const Condition &condition, const Method &method, const Score &sc
 	printf("%-10s %-18s %5d %5d %7.3f %8.3f %7.3f %7.3f %6.3f %6.3f %7.2f %7.2f %7.1f\n",
 	       name_of(condition).c_str(), method.name, score.shots, score.points, 1e3 * score.error / points,
 	       1e3 * score.error_most, bias[0], bias[1], spread(0), spread(1), score.normalised2 / n,
-	       score.normalised3 / points, score.us / (2 * std::max(score.shots, 1)));
+	       score.normalised3 / points, median(score.us));
 }
 
 } // namespace

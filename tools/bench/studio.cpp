@@ -1,5 +1,7 @@
 #include "studio.hpp"
 
+#include <cmath>
+
 #include "program.hpp"
 
 namespace bench
@@ -70,10 +72,11 @@ std::vector<Shot> Studio::follow(const Eigen::Vector3d &position, const Eigen::V
 				 double rate)
 {
 	const double lead = earlier / rate + 0.01;
-	Eigen::Vector3d from_above = velocity;
-	if (position.y() - lead * velocity.y() < sim::ball_radius)
-		from_above.y() = -velocity.y(); // not through the table
-	const sim::Episode episode = make_episode(position, from_above, lead);
+	// From the middle height, neither through the table nor from above the pictures.
+	const double middle = 0.25; // m
+	Eigen::Vector3d in_sight = velocity;
+	in_sight.y() = std::copysign(velocity.y(), position.y() - middle);
+	const sim::Episode episode = make_episode(position, in_sight, lead);
 	std::vector<Shot> shots;
 	for (int i = earlier; i >= 0; i--) {
 		Shot shot;
