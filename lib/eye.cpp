@@ -117,7 +117,7 @@ Side make_side(const pong_rig &rig, pong_side side, const pong_settings &setting
 struct Expectation {
 	bool windowed, streaked; // whether what follows is known
 	pong_window window;
-	double streak[2];
+	double streak[3];
 };
 
 // The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the

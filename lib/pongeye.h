@@ -416,22 +416,31 @@ PONG_API int pong_detect(pong_detector *detector, const pong_pictures *pictures,
  * Locate: the ball's centre to a part of a pixel, on the original picture (paper, section 4.3)
  */
 
+/* What is wrong with a ball's picture. Its centre is less certain then, and its covariance says by how much. */
+enum {
+	PONG_CENTRE_CUT = 1,     /* the border of the picture cuts it */
+	PONG_CENTRE_COVERED = 2, /* something hides a part of it */
+};
+
 typedef struct pong_centre {
 	double u, v;             /* px */
 	double radius;           /* px */
 	double covariance[2][2]; /* of u, v; px^2 */
+	double common;           /* correlation of its error with that of the other camera's centre of the same ball */
+	unsigned flags;          /* PONG_CENTRE_CUT | PONG_CENTRE_COVERED; 0: all of the ball is seen */
 } pong_centre;
 
 /* Fit the centre of a detected ball: where the sphere's centre is seen in the middle of the exposure. `streak` is how
- * far the ball's picture moves during the exposure, px, as pong_streak tells; NULL where that is unknown. Returns
- * PONG_FOUND, or PONG_NONE where the pixels don't look like a ball. */
+ * the ball's picture changes during the exposure, as pong_streak tells; NULL where that is unknown. Returns PONG_FOUND,
+ * or PONG_NONE where the pixels don't look like a ball. */
 PONG_API int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const pong_detection *detection,
-			 const double streak[2], const pong_settings *settings, pong_centre *centre);
+			 const double streak[3], const pong_settings *settings, pong_centre *centre);
 
-/* How far a ball at a position (m), with a velocity (m/s), moves in the picture during an exposure (s), px.
- * Returns PONG_FOUND, or PONG_NONE where the ball is not in front of the camera. */
+/* How the picture of a ball at a position (m), with a velocity (m/s), changes during an exposure (s): by how many
+ * pixels it moves along u and v, and by which part of its size it grows. Returns PONG_FOUND, or PONG_NONE where the
+ * ball is not in front of the camera. */
 PONG_API int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
-			 double streak[2]);
+			 double streak[3]);
 
 /* --------------------------------------------------------------------------------------------------------------
  * Reconstruct: from two centres to a point in the table frame (paper, section 5 and appendix)
