@@ -45,7 +45,7 @@ using Region = std::unique_ptr<pong_region, Deleter<pong_region_free>>;
 using Detector = std::unique_ptr<pong_detector, Deleter<pong_detector_free>>;
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
 
-// The last pictures of one camera, copied: what a new one is compared with.
+// The last pictures of one camera, copied: the newest, and those that it is compared with.
 class PictureRing
 {
 public:
@@ -55,15 +55,15 @@ public:
 	{
 	}
 
-	bool empty() const
+	size_t count() const
 	{
-		return count_ == 0;
+		return count_;
 	}
 
-	// The one that was added `age` pictures ago, or the oldest.
+	// The one that was added `age` pictures before the newest, or the oldest.
 	pong_image earlier(size_t age) const
 	{
-		const uint8_t *pixels = pixels_[(count_ - std::min(age, count_)) % pixels_.size()].data();
+		const uint8_t *pixels = pixels_[(count_ - 1 - std::min(age, count_ - 1)) % pixels_.size()].data();
 		return {pixels, width_, height_, width_};
 	}
 
@@ -111,14 +111,15 @@ Side make_side(const pong_rig &rig, pong_side side, const pong_settings &setting
 	return {camera,
 		std::move(region),
 		std::move(detector),
-		PictureRing(camera.width, camera.height, 2 * settings.detect.gap),
+		PictureRing(camera.width, camera.height, 2 * settings.detect.gap + 1),
 		{}};
 }
 
-// Where the ball that is followed must be now: in which window, and how far its picture moves during the exposure.
+// Where the ball that is followed must be now in one camera's picture, and how far it moves there during the exposure.
 struct Expectation {
-	const pong_window *window; // null: anywhere
-	const double *streak;      // null: unknown
+	bool windowed, streaked; // whether what follows is known
+	pong_window window;
+	double streak[3];
 };
 
 // The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
@@ -133,21 +134,26 @@ bool locate(const Side &side, const pong_pictures &pictures, const pong_detectio
 	return true;
 }
 
-void look(Side &side, const pong_image &image, const Expectation &expected, const pong_settings &settings)
+// Look at the newest picture.
+void look(Side &side, const Expectation &expected, const pong_settings &settings)
 {
-	side.balls.count = 0;
-	if (side.pictures.empty())
+	Balls &balls = side.balls;
+	balls.count = 0;
+	if (side.pictures.count() < 2)
 		return;
 	pong_detection found[balls_capacity];
 	const size_t gap = static_cast<size_t>(settings.detect.gap);
-	const pong_pictures pictures = {image, {side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
-	const int count = pong_detect(side.detector.get(), &pictures, expected.window, found, balls_capacity);
+	const pong_pictures pictures = {side.pictures.earlier(0),
+					{side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
+	const pong_window *window = expected.windowed ? &expected.window : nullptr;
+	const double *streak = expected.streaked ? expected.streak : nullptr;
+	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
 	for (int i = 0; i < count; i++) {
-		Balls &balls = side.balls;
 		pong_centre &centre = balls.centre[balls.count];
-		if (!locate(side, pictures, found[i], expected.streak, settings, &centre))
+		if (!locate(side, pictures, found[i], streak, settings, &centre))
 			continue;
-		balls.shown[balls.count] = measure_outline(image, centre.u, centre.v, centre.radius, usual_noise).shown;
+		balls.shown[balls.count] =
+			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).shown;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
 }
@@ -164,7 +170,12 @@ struct pong_eye {
 	Side side[2];
 	Track track;
 	bool begun;
-	int64_t last_utime;
+	int64_t utime; // of the pair that is looked at
+
+	// What the track makes expect of that pair: set before the two looks, which only read it.
+	bool expecting;
+	pong_state expected;
+	Expectation side_expected[2];
 };
 
 namespace pong
@@ -264,31 +275,38 @@ bool window_of(const pong_eye &eye, pong_side side, const pong_state &expected, 
 	return true;
 }
 
-// Look into the window where the ball is expected; if it is not there, or none is expected, everywhere.
-bool find_ball(pong_eye &eye, int64_t utime, const pong_image image[2], pong_sight *sight, Match *match)
+void expect(pong_eye &eye)
 {
-	pong_state expected;
-	pong_window window[2];
-	const bool expecting = expected_position(eye, utime, &expected);
-	sight->windowed = expecting && window_of(eye, PONG_LEFT, expected, &window[PONG_LEFT]) &&
-			  window_of(eye, PONG_RIGHT, expected, &window[PONG_RIGHT]);
-	double streak[2][2];
-	bool streaked[2];
-	for (int side = 0; side < 2; side++)
-		streaked[side] = expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
-							  eye.settings.locate.exposure, streak[side]);
+	eye.expecting = expected_position(eye, eye.utime, &eye.expected);
+	const pong_state &expected = eye.expected;
+	bool windowed = eye.expecting;
+	for (int side = 0; side < 2; side++) {
+		Expectation &there = eye.side_expected[side];
+		there.streaked =
+			eye.expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
+						     eye.settings.locate.exposure, there.streak);
+		windowed = windowed && window_of(eye, static_cast<pong_side>(side), expected, &there.window);
+	}
+	for (Expectation &there : eye.side_expected)
+		there.windowed = windowed;
+}
+
+// Both have looked into the window where the ball is expected; if it is not there, they look everywhere.
+bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
+{
+	sight->windowed = eye.side_expected[PONG_LEFT].windowed;
 	for (;;) {
-		for (int side = 0; side < 2; side++) {
-			look(eye.side[side], image[side],
-			     {sight->windowed ? &window[side] : nullptr, streaked[side] ? streak[side] : nullptr},
-			     eye.settings);
+		for (int side = 0; side < 2; side++)
 			sight->detections[side] = eye.side[side].balls.count;
-		}
-		if (match_sides(eye, expecting ? &expected : nullptr, match))
+		if (match_sides(eye, eye.expecting ? &eye.expected : nullptr, match))
 			return true;
 		if (!sight->windowed)
 			return false;
 		sight->windowed = 0;
+		for (int side = 0; side < 2; side++) {
+			eye.side_expected[side].windowed = false;
+			look(eye.side[side], eye.side_expected[side], eye.settings);
+		}
 	}
 }
 
@@ -340,36 +358,21 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 	sight->has_prediction = predict(eye, match.point.utime, &sight->prediction);
 }
 
-void check_size(const pong_camera &camera, const pong_image &image, const char *name)
+void check_size(const pong_eye &eye, pong_side side, const pong_image &image)
 {
+	const pong_camera &camera = eye.rig.camera[side];
 	if (image.width != camera.width || image.height != camera.height)
-		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d", name,
-						       image.width, image.height, camera.width, camera.height)};
+		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d",
+						       side == PONG_LEFT ? "left" : "right", image.width, image.height,
+						       camera.width, camera.height)};
 }
 
-int push(pong_eye &eye, int64_t utime, int64_t frame, const pong_image image[2], pong_sight *sight)
+int look(pong_eye &eye, pong_side side, const pong_image &image)
 {
-	check_size(eye.rig.camera[PONG_LEFT], image[PONG_LEFT], "left");
-	check_size(eye.rig.camera[PONG_RIGHT], image[PONG_RIGHT], "right");
-	if (eye.begun && utime <= eye.last_utime) {
-		sight->outcome = PONG_OUT_OF_ORDER;
-		return PONG_NONE;
-	}
-	eye.begun = true;
-	eye.last_utime = utime;
-	pong_track_miss(eye.track.get(), utime);
-
-	Match match;
-	if (find_ball(eye, utime, image, sight, &match)) {
-		match.point.utime = utime;
-		match.point.frame = frame;
-		follow_ball(eye, match, sight);
-	} else {
-		sight->outcome = outcome_without_match(*sight);
-	}
-	for (int side = 0; side < 2; side++)
-		eye.side[side].pictures.add(image[side]);
-	return sight->has_ball ? PONG_FOUND : PONG_NONE;
+	check_size(eye, side, image);
+	eye.side[side].pictures.add(image);
+	look(eye.side[side], eye.side_expected[side], eye.settings);
+	return eye.side[side].balls.count;
 }
 
 pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
@@ -383,7 +386,10 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 			    {make_side(rig, PONG_LEFT, settings), make_side(rig, PONG_RIGHT, settings)},
 			    std::move(track),
 			    false,
-			    0};
+			    0,
+			    false,
+			    {},
+			    {}};
 }
 
 } // namespace
@@ -400,10 +406,49 @@ void pong_eye_free(pong_eye *eye)
 	delete eye;
 }
 
+int pong_eye_expect(pong_eye *eye, int64_t utime)
+{
+	if (eye->begun && utime <= eye->utime)
+		return PONG_NONE;
+	eye->begun = true;
+	eye->utime = utime;
+	pong_track_miss(eye->track.get(), utime);
+	expect(*eye);
+	return PONG_FOUND;
+}
+
+int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error)
+{
+	return guarded(error, [&] { return look(*eye, side, *image); });
+}
+
+int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight)
+{
+	memset(sight, 0, sizeof *sight);
+	Match match;
+	if (find_ball(*eye, sight, &match)) {
+		match.point.utime = eye->utime;
+		match.point.frame = frame;
+		follow_ball(*eye, match, sight);
+	} else {
+		sight->outcome = outcome_without_match(*sight);
+	}
+	return sight->has_ball ? PONG_FOUND : PONG_NONE;
+}
+
 int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 		  pong_sight *sight, pong_error *error)
 {
 	memset(sight, 0, sizeof *sight);
-	const pong_image image[2] = {*left, *right};
-	return guarded(error, [&] { return push(*eye, utime, frame, image, sight); });
+	return guarded(error, [&] {
+		check_size(*eye, PONG_LEFT, *left);
+		check_size(*eye, PONG_RIGHT, *right);
+		if (!pong_eye_expect(eye, utime)) {
+			sight->outcome = PONG_OUT_OF_ORDER;
+			return static_cast<int>(PONG_NONE);
+		}
+		look(*eye, PONG_LEFT, *left);
+		look(*eye, PONG_RIGHT, *right);
+		return pong_eye_join(eye, frame, sight);
+	});
 }

@@ -29,10 +29,13 @@ bool locate(const LocateTask &task, pong_locate_method method, pong_centre *cent
 } // namespace pong
 
 int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const pong_detection *detection,
-		const double streak[2], const pong_settings *settings, pong_centre *centre)
+		const double streak[3], const pong_settings *settings, pong_centre *centre)
 {
-	const pong::LocateTask task = {*camera, *pictures, *detection,
+	const pong::LocateTask task = {*camera,
+				       *pictures,
+				       *detection,
 				       streak ? pong::Vector2(streak[0], streak[1]) : pong::Vector2(0, 0),
+				       streak ? streak[2] : 0,
 				       settings->locate.sigma};
 	// A centre outside of the ball is a fit gone wrong.
 	if (!pong::locate(task, settings->locate.method, centre) ||
@@ -42,7 +45,7 @@ int pong_locate(const pong_camera *camera, const pong_pictures *pictures, const 
 }
 
 int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
-		double streak[2])
+		double streak[3])
 {
 	double begin[3], end[3], begin_uv[2], end_uv[2];
 	for (int axis = 0; axis < 3; axis++) {
@@ -53,5 +56,8 @@ int pong_streak(const pong_camera *camera, const double position[3], const doubl
 		return PONG_NONE;
 	streak[0] = end_uv[0] - begin_uv[0];
 	streak[1] = end_uv[1] - begin_uv[1];
+	const double one = 1; // m; the ratio does not depend on it
+	const double size = pong_apparent_size(camera, position, one);
+	streak[2] = (pong_apparent_size(camera, end, one) - pong_apparent_size(camera, begin, one)) / size;
 	return PONG_FOUND;
 }

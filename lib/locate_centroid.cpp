@@ -27,8 +27,7 @@ bool locate_centroid(const LocateTask &task, pong_centre *centre)
 	});
 	if (!(weight > 1))
 		return false;
-	const double variance = task.sigma * task.sigma;
-	*centre = {sum.x() / weight, sum.y() / weight, detection.size / 2, {{variance, 0}, {0, variance}}};
+	*centre = make_centre(sum / weight, detection.size / 2, task.sigma * task.sigma * Matrix2::Identity());
 	return true;
 }
 

@@ -18,31 +18,68 @@ namespace pong
 namespace
 {
 
-const double step = 0.5;   // between samples of a ray, px
-const double lens = 1.5;   // half of the width of a step that the lens and the pixels blur, px
-const double beyond = 1.5; // how far the outside, where only background is seen, is watched, px
-const int samples_max = 256;
-const double contrast_needed = 5;  // between ball and background, grey levels
-const double background_error = 6; // of an earlier picture that shows what is behind the ball, grey levels
-const double shading_error = 0.06; // of an edge, px: brightness is not continued perfectly
-const double noise_error = 2.5;    // of an edge: grey levels times pixels, over the contrast
-const double common_error = 0.12;  // of the centre, px: what shading does to all edges of a side alike
-const int passes = 3;
+const double lens = 1.5;  // half of the width of a step that the lens and the pixels blur, px
+const float beyond = 1.5; // how far the outside, where only background is seen, is watched, px
+const int samples_max = 192;
+const float contrast_needed = 5;              // between ball and background, grey levels
+const float background_error = 6;             // of an earlier picture that shows what is behind the ball, grey levels
+const double shading_error = 0.06;            // of an edge, px: brightness is not continued perfectly
+const double noise_error = 2.5;               // of an edge: grey levels times pixels, over the contrast
+const double common_error = 0.12;             // of the centre, px: what shading does to all edges of a side alike
+const double seen_least = 0.7;                // of the rays of a ball that nothing covers
+const int coarse_rays = 16;                   // of the first pass, which only tells where to look closely
+const float coarse_step = 1, fine_step = 0.5; // between samples of a ray, px
+const int passes = 2;
 
 // The outline as far as it is known.
 struct Circle {
 	Vector2 centre;
 	double radius;
 	double uncertainty; // of the radius along any ray, px
+	int rays;           // to look along
+	float step;         // between their samples, px
 };
 
-double sample(const pong_image &image, const Vector2 &at)
+// One ray's samples, at distances begin + i * step from the centre.
+struct Profile {
+	float begin, step;
+	int count, watched; // samples; the last of them see background only
+	int u[samples_max], v[samples_max];
+	float right[samples_max], below[samples_max]; // of the pixel's corner, parts of a pixel
+	float now[samples_max], background[samples_max];
+	float facing[samples_max]; // the part of the surface normal that faces the camera: sqrt(1 - s^2 / r^2)
+
+	float at(int i) const
+	{
+		return begin + static_cast<float>(i) * step;
+	}
+};
+
+void lay_out(const Circle &circle, const Vector2 &direction, Profile &profile)
 {
-	const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-	const double right = at.x() - u, below = at.y() - v;
-	const uint8_t *row = image.pixels + v * image.stride + u, *next = row + image.stride;
-	return (1 - below) * ((1 - right) * row[0] + right * row[1]) +
-	       below * ((1 - right) * next[0] + right * next[1]);
+	const float u = static_cast<float>(circle.centre.x()), du = static_cast<float>(direction.x());
+	const float v = static_cast<float>(circle.centre.y()), dv = static_cast<float>(direction.y());
+	const float per_radius = static_cast<float>(1 / circle.radius);
+	for (int i = 0; i < profile.count; i++) {
+		const float s = profile.at(i), x = u + s * du, y = v + s * dv, part = s * per_radius;
+		profile.u[i] = static_cast<int>(x);
+		profile.v[i] = static_cast<int>(y);
+		profile.right[i] = x - static_cast<float>(profile.u[i]);
+		profile.below[i] = y - static_cast<float>(profile.v[i]);
+		profile.facing[i] = std::sqrt(std::max(1 - part * part, 0.0f));
+	}
+}
+
+// Between the four pixels around each place, linearly.
+void sample(const pong_image &image, const Profile &profile, int first, float *out)
+{
+	for (int i = first; i < profile.count; i++) {
+		const uint8_t *row = image.pixels + profile.v[i] * image.stride + profile.u[i];
+		const uint8_t *next = row + image.stride;
+		const float above = row[0] + profile.right[i] * static_cast<float>(row[1] - row[0]);
+		const float under = next[0] + profile.right[i] * static_cast<float>(next[1] - next[0]);
+		out[i] = above + profile.below[i] * (under - above);
+	}
 }
 
 bool inside_picture(const pong_image &image, const Vector2 &at)
@@ -50,61 +87,50 @@ bool inside_picture(const pong_image &image, const Vector2 &at)
 	return at.x() >= 0 && at.y() >= 0 && at.x() < image.width - 1 && at.y() < image.height - 1;
 }
 
-// One ray's samples: distance s = begin + i * step from the centre.
-struct Profile {
-	double begin;
-	int count, watched; // samples; the last of them see background only
-	double now[samples_max], background[samples_max];
-};
-
 // Take the background from the earlier picture that looks most like now outside of the ball; where neither does, what
 // is seen outside just now continues inwards.
-void fill_background(const pong_pictures &pictures, const Vector2 &centre, const Vector2 &direction, Profile &profile)
+void fill_background(const pong_pictures &pictures, Profile &profile)
 {
-	double least = background_error * profile.watched;
+	const int first = profile.count - profile.watched;
+	float least = background_error * static_cast<float>(profile.watched), outside = 0;
 	const pong_image *best = nullptr;
 	for (const pong_image &earlier : pictures.earlier) {
-		double error = 0;
-		for (int i = profile.count - profile.watched; i < profile.count; i++)
-			error += std::abs(profile.now[i] -
-					  sample(earlier, centre + (profile.begin + i * step) * direction));
+		sample(earlier, profile, first, profile.background);
+		float error = 0;
+		for (int i = first; i < profile.count; i++)
+			error += std::abs(profile.now[i] - profile.background[i]);
 		if (error < least) {
 			least = error;
 			best = &earlier;
 		}
 	}
-	double outside = 0;
-	for (int i = profile.count - profile.watched; i < profile.count; i++)
-		outside += profile.now[i] / profile.watched;
-	for (int i = 0; i < profile.count; i++)
-		profile.background[i] = best ? sample(*best, centre + (profile.begin + i * step) * direction) : outside;
+	for (int i = first; i < profile.count; i++)
+		outside += profile.now[i] / static_cast<float>(profile.watched);
+	if (best)
+		sample(*best, profile, 0, profile.background);
+	else
+		std::fill_n(profile.background, profile.count, outside);
 }
 
-// The ball's brightness on one ray, linear in n = sqrt(1 - s^2 / r^2), the part of the surface normal that faces the
-// camera: so a ball's shading runs out towards its outline.
+// The ball's brightness on one ray, linear in how much its surface faces the camera: so a ball's shading runs out
+// towards its outline.
 struct Shading {
-	double level, slope;
+	float level, slope;
 
-	double at(double n) const
+	float at(float facing) const
 	{
-		return level + slope * n;
+		return level + slope * facing;
 	}
 };
 
-double facing(double s, double radius)
-{
-	const double part = s / radius;
-	return part < 1 ? std::sqrt(1 - part * part) : 0;
-}
+const float slope_prior = 0.05f; // weight of "no slope" against the samples
 
-const double slope_prior = 0.05; // weight of "no slope" against the samples
-
-Shading fit_shading(const Profile &profile, double until, double radius)
+// From the first samples of a ray.
+Shading fit_shading(const Profile &profile, int count)
 {
-	double count = 0, sum_n = 0, sum_nn = 0, sum_i = 0, sum_in = 0;
-	for (int i = 0; i < profile.count && profile.begin + i * step <= until; i++) {
-		const double n = facing(profile.begin + i * step, radius);
-		count++;
+	float sum_n = 0, sum_nn = 0, sum_i = 0, sum_in = 0;
+	for (int i = 0; i < count; i++) {
+		const float n = profile.facing[i];
 		sum_n += n;
 		sum_nn += n * n;
 		sum_i += profile.now[i];
@@ -112,9 +138,10 @@ Shading fit_shading(const Profile &profile, double until, double radius)
 	}
 	if (count < 2)
 		return {profile.now[0], 0};
-	const double spread = sum_nn - sum_n * sum_n / count + slope_prior;
-	const double slope = (sum_in - sum_n * sum_i / count) / spread;
-	return {(sum_i - slope * sum_n) / count, slope};
+	const float per_count = 1 / static_cast<float>(count);
+	const float spread = sum_nn - sum_n * sum_n * per_count + slope_prior;
+	const float slope = (sum_in - sum_n * sum_i * per_count) / spread;
+	return {(sum_i - slope * sum_n) * per_count, slope};
 }
 
 // Where the edge is on one ray; its deviation is infinite where it can't be told.
@@ -122,53 +149,60 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 {
 	const EdgePoint none = {{0, 0}, INFINITY};
 	const double blur = lens + std::abs(task.streak.dot(direction)) / 2 + circle.uncertainty;
-	const double depth = std::max(2.5, 0.2 * circle.radius); // of the ball's inside that tells its brightness
+	const double depth = std::max(3.0, 0.2 * circle.radius); // of the ball's inside that tells its brightness
 	Profile profile;
-	profile.begin = std::max(0.0, circle.radius - blur - depth);
-	profile.watched = static_cast<int>(beyond / step);
-	profile.count = static_cast<int>((circle.radius + blur - profile.begin) / step) + 1 + profile.watched;
+	profile.begin = static_cast<float>(std::max(0.0, circle.radius - blur - depth));
+	profile.step = circle.step;
+	profile.watched = static_cast<int>(beyond / circle.step);
+	profile.count = static_cast<int>((static_cast<float>(circle.radius + blur) - profile.begin) / circle.step) + 1 +
+			profile.watched;
 	if (profile.count > samples_max ||
-	    !inside_picture(task.pictures.current, circle.centre + (profile.begin + profile.count * step) * direction))
+	    !inside_picture(task.pictures.current,
+			    circle.centre + static_cast<double>(profile.at(profile.count)) * direction))
 		return none;
-	for (int i = 0; i < profile.count; i++)
-		profile.now[i] = sample(task.pictures.current, circle.centre + (profile.begin + i * step) * direction);
-	fill_background(task.pictures, circle.centre, direction, profile);
-	const double inner = std::max(profile.begin + 2 * step, circle.radius - blur);
-	const Shading shading = fit_shading(profile, inner, circle.radius);
-	double cover = 0, contrast = INFINITY;
-	for (int i = 0; i < profile.count; i++) {
-		const double s = profile.begin + i * step;
-		if (s <= inner) {
-			cover += 1;
-			continue;
-		}
-		const double ball = shading.at(facing(s, circle.radius)) - profile.background[i];
+	lay_out(circle, direction, profile);
+	sample(task.pictures.current, profile, 0, profile.now);
+	fill_background(task.pictures, profile);
+	// Up to here there is nothing but ball.
+	const int inner =
+		1 +
+		static_cast<int>(std::lround(std::min(depth, circle.radius - blur) / static_cast<double>(circle.step)));
+	if (inner < 2)
+		return none;
+	const Shading shading = fit_shading(profile, inner);
+	float cover = static_cast<float>(inner), contrast = INFINITY;
+	for (int i = inner; i < profile.count; i++) {
+		const float ball = shading.at(profile.facing[i]) - profile.background[i];
 		contrast = std::min(contrast, std::abs(ball));
 		cover += (profile.now[i] - profile.background[i]) / ball;
 	}
 	if (!(contrast >= contrast_needed))
 		return none;
-	const double place = profile.begin + (cover - 0.5) * step;
+	const double place = static_cast<double>(profile.begin + (cover - 0.5f) * circle.step);
 	if (!(std::abs(place - circle.radius) < blur))
 		return none;
-	return {circle.centre + place * direction, std::hypot(shading_error, noise_error / contrast)};
+	return {circle.centre + place * direction,
+		std::hypot(shading_error, noise_error / static_cast<double>(contrast))};
 }
 
 int ray_count(double radius)
 {
-	return std::clamp(static_cast<int>(4 * radius), 24, edge_points_max);
+	return std::clamp(static_cast<int>(2.5 * radius), 24, 32);
 }
 
 bool fit_edges(const LocateTask &task, const Camera &camera, const Circle &circle, ConeFit *fit)
 {
 	EdgePoint points[edge_points_max];
-	const int rays = ray_count(circle.radius);
+	const int rays = circle.rays;
 	int count = 0;
+	const double cosine = std::cos(2 * M_PI / rays), sine = std::sin(2 * M_PI / rays);
+	Vector2 direction(1, 0);
 	for (int i = 0; i < rays; i++) {
-		const double angle = 2 * M_PI * i / rays;
-		const EdgePoint point = find_edge(task, circle, {std::cos(angle), std::sin(angle)});
+		const EdgePoint point = find_edge(task, circle, direction);
 		if (!std::isinf(point.deviation))
 			points[count++] = point;
+		direction = Vector2(cosine * direction.x() - sine * direction.y(),
+				    sine * direction.x() + cosine * direction.y());
 	}
 	return 3 * count >= rays && fit_cone(camera, points, count, fit);
 }
@@ -179,19 +213,24 @@ bool locate_edges(const LocateTask &task, pong_centre *centre)
 {
 	const Camera camera(task.camera);
 	const double radius = task.detection.size / 2;
-	Circle circle = {{task.detection.u, task.detection.v}, radius, 1 + 0.1 * radius};
+	Circle circle = {{task.detection.u, task.detection.v}, radius, 1 + 0.1 * radius, coarse_rays, coarse_step};
 	ConeFit fit;
 	for (int pass = 0; pass < passes; pass++) {
 		if (!fit_edges(task, camera, circle, &fit))
 			return false;
-		circle = {fit.centre, fit.radius, 0.5};
+		circle = {fit.centre, fit.radius, 0.5, ray_count(fit.radius), fine_step};
 	}
-	*centre = {fit.centre.x(), fit.centre.y(), fit.radius, {}};
 	const double scale = std::max(1.0, fit.residual);
 	const Matrix2 covariance = scale * scale * fit.covariance + common_error * common_error * Matrix2::Identity();
-	for (int i = 0; i < 2; i++)
-		for (int j = 0; j < 2; j++)
-			centre->covariance[i][j] = covariance(i, j);
+	*centre = make_centre(fit.centre, fit.radius, covariance);
+	centre->common = common_part;
+	// What is hidden, or out of the picture, has no edge.
+	const bool whole = inside_picture(task.pictures.current, fit.centre - Vector2::Constant(fit.radius)) &&
+			   inside_picture(task.pictures.current, fit.centre + Vector2::Constant(fit.radius));
+	if (!whole)
+		centre->flags |= PONG_CENTRE_CUT;
+	else if (fit.used < seen_least * circle.rays)
+		centre->flags |= PONG_CENTRE_COVERED;
 	return true;
 }
 

@@ -26,11 +26,8 @@ bool locate_gaussian(const LocateTask &task, pong_centre *centre)
 	const Eigen::Vector4d a = normal.ldlt().solve(right);
 	if (!(a[3] < 0))
 		return false; // not brightest inside
-	const double variance = task.sigma * task.sigma;
-	*centre = {detection.u - radius * a[2] / (2 * a[3]),
-		   detection.v - radius * a[1] / (2 * a[3]),
-		   radius,
-		   {{variance, 0}, {0, variance}}};
+	const Vector2 uv = Vector2(detection.u, detection.v) - radius / (2 * a[3]) * Vector2(a[2], a[1]);
+	*centre = make_centre(uv, radius, task.sigma * task.sigma * Matrix2::Identity());
 	return true;
 }
 

@@ -1,4 +1,5 @@
 // From two centres to a point (paper, section 5 and appendix).
+#include <algorithm>
 #include <cmath>
 
 #include "camera.hpp"
@@ -89,34 +90,53 @@ Eigen::Matrix<double, 2, 3> projection_jacobian(const Matrix34 &P, const Vector3
 	return jacobian;
 }
 
-// The covariance that the two centres leave to the point: the inverse of the information that they carry.
-Matrix3 point_covariance(const pong_camera camera[2], const pong_centre centre[2], const Vector3 &position)
+using Matrix4 = Eigen::Matrix4d;
+using Jacobian = Eigen::Matrix<double, 4, 3>;
+
+// The information of both centres. With covariances L L', what they err alike is the part `common` of L_left L_right'.
+Matrix4 centres_information(const pong_centre centre[2])
 {
-	Matrix3 information = Matrix3::Zero();
+	Matrix4 covariance;
+	Matrix2 root[2];
 	for (int side = 0; side < 2; side++) {
-		const auto jacobian = projection_jacobian(matrix_of(camera[side].P), position);
-		information += jacobian.transpose() * covariance_of(centre[side]).inverse() * jacobian;
+		covariance.block<2, 2>(2 * side, 2 * side) = covariance_of(centre[side]);
+		root[side] = covariance_of(centre[side]).llt().matrixL();
 	}
-	return information.inverse();
+	const double common = std::min(centre[PONG_LEFT].common, centre[PONG_RIGHT].common);
+	covariance.topRightCorner<2, 2>() = common * root[PONG_LEFT] * root[PONG_RIGHT].transpose();
+	covariance.bottomLeftCorner<2, 2>() = covariance.topRightCorner<2, 2>().transpose();
+	return covariance.inverse();
+}
+
+// How both ideal pixels move with the point.
+Jacobian pair_jacobian(const pong_camera camera[2], const Vector3 &position)
+{
+	Jacobian jacobian;
+	for (int side = 0; side < 2; side++)
+		jacobian.middleRows<2>(2 * side) = projection_jacobian(matrix_of(camera[side].P), position);
+	return jacobian;
+}
+
+// The covariance that the two centres leave to the point: the inverse of the information that they carry.
+Matrix3 point_covariance(const pong_camera camera[2], const Matrix4 &information, const Vector3 &position)
+{
+	const Jacobian jacobian = pair_jacobian(camera, position);
+	return (jacobian.transpose() * information * jacobian).inverse();
 }
 
 // The point that makes both centres most likely, from the linear one on: Gauss-Newton on what the pixels miss, in units
 // of their covariances.
-Vector3 most_likely(const pong_camera camera[2], const Pair &pair, const pong_centre centre[2], Vector3 position)
+Vector3 most_likely(const pong_camera camera[2], const Pair &pair, const Matrix4 &information, Vector3 position)
 {
 	const int rounds = 2; // the linear point is close
 	for (int round = 0; round < rounds; round++) {
-		Matrix3 normal = Matrix3::Zero();
-		Vector3 right = Vector3::Zero();
-		for (int side = 0; side < 2; side++) {
-			const Matrix34 P = matrix_of(camera[side].P);
-			const auto jacobian = projection_jacobian(P, position);
-			const Vector2 missed = pair.pixel[side] - (P * position.homogeneous()).hnormalized();
-			const Matrix2 weight = covariance_of(centre[side]).inverse();
-			normal += jacobian.transpose() * weight * jacobian;
-			right += jacobian.transpose() * weight * missed;
-		}
-		position += normal.ldlt().solve(right);
+		const Jacobian jacobian = pair_jacobian(camera, position);
+		Eigen::Vector4d missed;
+		for (int side = 0; side < 2; side++)
+			missed.segment<2>(2 * side) =
+				pair.pixel[side] - (matrix_of(camera[side].P) * position.homogeneous()).hnormalized();
+		const Matrix3 normal = jacobian.transpose() * information * jacobian;
+		position += normal.ldlt().solve(jacobian.transpose() * information * missed);
 	}
 	return position;
 }
@@ -168,9 +188,10 @@ int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_ce
 		if (!size_agrees(rig->camera[side], position, rig->ball.diameter, centre[side],
 				 settings->reconstruct.size))
 			return PONG_NONE;
+	const Matrix4 information = centres_information(centre);
 	if (settings->reconstruct.method == PONG_RECONSTRUCT_LIKELY)
-		position = most_likely(rig->camera, pair, centre, position);
+		position = most_likely(rig->camera, pair, information, position);
 	store(position, point->position);
-	store(point_covariance(rig->camera, centre, position), point->covariance);
+	store(point_covariance(rig->camera, information, position), point->covariance);
 	return PONG_FOUND;
 }

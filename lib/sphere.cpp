@@ -1,12 +1,6 @@
-// A pixel is partly the ball's and partly the background's:
-//
-//     level = (1 - cover) background + cover shade(n)
-//
-// cover is a step at the outline, blurred by lens and pixel with the kernel 15/16 (1 - t^2)^2 / h for |t| = |d| / h < 1
-// (close to a Gaussian of standard deviation h / sqrt(7)), d the depth inside of the outline. Its integral, and the
-// integral of that, are polynomials; so is the mean depth of the part of a pixel that is covered, which tells the
-// normal n there. shade is a polynomial of n = (nx, ny, nz), nz towards the camera: light of any kind on a matt sphere
-// is smooth.
+// Each pixel is (1 - cover) background + cover shade(n), cover a Gaussian step at the outline, n the surface normal,
+// and the mean of that over the streak. The shade is a polynomial of n = (nx, ny, nz), nz towards the camera: light of
+// any kind on a matt sphere is smooth. The background may be lit otherwise than it was: a shadow, a lamp that flickers.
 #include "sphere.hpp"
 
 #include <cmath>
@@ -51,28 +45,49 @@ inline Slope shade_slope(const float *s, float x, float y, float z)
 		s[3] + s[5] * x + s[6] * y};
 }
 
+// The normal distribution at x: its integral and its density, within 5e-4 (Abramowitz and Stegun, 7.1.27).
+struct Normal {
+	float integral, density;
+};
+
+inline Normal normal_distribution(float x)
+{
+	const float per_sqrt2 = 0.70710678f;
+	const float a = clamp(std::abs(x) * per_sqrt2, 0, 8);
+	const float p = 1 + a * (0.278393f + a * (0.230389f + a * (0.000972f + a * 0.078108f)));
+	const float slope = 0.278393f + a * (2 * 0.230389f + a * (3 * 0.000972f + a * 4 * 0.078108f));
+	const float q = 1 / p, q2 = q * q, tail = 0.5f * q2 * q2;
+	return {x < 0 ? tail : 1 - tail, 4 * per_sqrt2 * tail * q * slope};
+}
+
 const float facing_least = 0.08f; // of nz: at the outline itself the normal's slope is infinite
 
 } // namespace
 
-PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak &streak, SphereBlock *pixels)
+PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak &streak, float per_unit,
+			       SphereBlock *pixels)
 {
-	const float *s = parameters.value + 4;
-	const float radius = parameters.value[2], h = parameters.value[3];
-	const float per_radius = 1 / radius, per_h = 1 / h, share = 1.0f / static_cast<float>(streak.count);
-	memcpy(pixels->level, pixels->background, sizeof pixels->level);
+	const float *s = parameters.value + geometry_terms, *gain = parameters.value + first_background;
+	const float blur = parameters.value[3], per_blur = 1 / blur, share = 1.0f / static_cast<float>(streak.count);
+	float behind[block], bare[block];
+	for (int i = 0; i < block; i++) {
+		behind[i] = pixels->background[i] *
+			    (1 + gain[0] + per_unit * (gain[1] * pixels->u[i] + gain[2] * pixels->v[i]));
+		bare[i] = 1;
+	}
+	memcpy(pixels->level, behind, sizeof pixels->level);
 	memset(pixels->slope, 0, sizeof pixels->slope);
 	for (int place = 0; place < streak.count; place++) {
 		const float u = parameters.value[0] + streak.u[place], v = parameters.value[1] + streak.v[place];
+		const float size = streak.size[place], radius = size * parameters.value[2], per_radius = 1 / radius;
 		for (int i = 0; i < block; i++) {
 			const float du = pixels->u[i] - u, dv = pixels->v[i] - v;
 			const float r = std::sqrt(du * du + dv * dv + 1e-6f), per_r = 1 / r;
-			const float depth = radius - r, t = clamp(depth * per_h, -1, 1), tt = t * t;
-			const float cover = 0.5f + t * (15 - tt * (10 - 3 * tt)) * (1.0f / 16);
-			const float step = (15.0f / 16) * (1 - tt) * (1 - tt) * per_h;
-			const float covered =
-				h * (0.15625f + 0.5f * t + tt * (7.5f - tt * (2.5f - 0.5f * tt)) * (1.0f / 16));
-			const float mean_depth = depth > h ? depth : covered / (cover + 1e-6f);
+			const float depth = radius - r, t = depth * per_blur;
+			const Normal step = normal_distribution(t);
+			const float cover = step.integral;
+			// What is covered of the blurred pixel lies this deep inside of the outline, on average.
+			const float mean_depth = depth + blur * step.density / (cover + 1e-6f);
 			const float e = clamp(1 - mean_depth * per_radius, 0, 1);
 			const float x = e * du * per_r, y = e * dv * per_r, zz = 1 - e * e;
 			const float z = std::sqrt(zz > 0 ? zz : 0);
@@ -82,24 +97,37 @@ PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak 
 				shade += s[k] * term[k];
 			const Slope by = shade_slope(s, x, y, z);
 			const float per_z = 1 / (z > facing_least ? z : facing_least);
-			const float part = share * cover, over = shade - pixels->background[i];
-			const float edge = share * step * over;
+			const float part = share * cover, over = shade - behind[i];
+			const float edge = share * step.density * per_blur * over;
+			bare[i] -= part;
 			pixels->level[i] += part * over;
 			pixels->slope[0][i] += edge * du * per_r + part * per_radius * (by.z * x * per_z - by.x);
 			pixels->slope[1][i] += edge * dv * per_r + part * per_radius * (by.z * y * per_z - by.y);
-			pixels->slope[2][i] += edge + part * per_radius * (by.z * e * e * per_z - by.x * x - by.y * y);
+			pixels->slope[2][i] +=
+				size * (edge + part * per_radius * (by.z * e * e * per_z - by.x * x - by.y * y));
 			pixels->slope[3][i] -= edge * t;
 			for (int k = 0; k < shading_terms; k++)
-				pixels->slope[4 + k][i] += part * term[k];
+				pixels->slope[geometry_terms + k][i] += part * term[k];
 		}
+	}
+	for (int i = 0; i < block; i++) {
+		const float seen = bare[i] * pixels->background[i];
+		pixels->slope[first_background][i] = seen;
+		pixels->slope[first_background + 1][i] = seen * per_unit * pixels->u[i];
+		pixels->slope[first_background + 2][i] = seen * per_unit * pixels->v[i];
 	}
 }
 
-PONG_CLONES void add_normal_equations(const SphereBlock &pixels, const float weight[block], const float residual[block],
-				      double normal[sphere_normal_size], double right[sphere_parameters])
+void NormalEquations::clear()
 {
-	const int lanes = 8;
-	double *out = normal;
+	memset(this, 0, sizeof *this);
+}
+
+PONG_CLONES static void add_products(const SphereBlock &pixels, const float weight[block], const float residual[block],
+				     NormalEquations *sums)
+{
+	const int lanes = NormalEquations::lanes;
+	float(*out)[lanes] = sums->normal;
 	for (int k = 0; k < sphere_parameters; k++) {
 		float weighted[block], sum[lanes] = {};
 		for (int i = 0; i < block; i++)
@@ -108,18 +136,21 @@ PONG_CLONES void add_normal_equations(const SphereBlock &pixels, const float wei
 			for (int lane = 0; lane < lanes; lane++)
 				sum[lane] += weighted[i + lane] * residual[i + lane];
 		for (int lane = 0; lane < lanes; lane++)
-			right[k] += static_cast<double>(sum[lane]);
-		for (int j = k; j < sphere_parameters; j++) {
+			sums->right[k][lane] += sum[lane];
+		for (int j = k; j < sphere_parameters; j++, out++) {
 			float product[lanes] = {};
 			for (int i = 0; i < block; i += lanes)
 				for (int lane = 0; lane < lanes; lane++)
 					product[lane] += weighted[i + lane] * pixels.slope[j][i + lane];
-			float total = 0;
 			for (int lane = 0; lane < lanes; lane++)
-				total += product[lane];
-			*out++ += static_cast<double>(total);
+				(*out)[lane] += product[lane];
 		}
 	}
+}
+
+void NormalEquations::add(const SphereBlock &pixels, const float weight[block], const float residual[block])
+{
+	add_products(pixels, weight, residual, this);
 }
 
 } // namespace pong

@@ -10,10 +10,14 @@
 namespace
 {
 
-const double shades[4] = {0.35, 0.1, -0.25, 0.4}; // ambient, and along the normal's x, y, z
+// Ambient light, and along the normal's x, y, -z. Under the first, the outline is brighter than the background above,
+// darker below, and neither in between: hard for edges. Under the second it is brighter all around.
+const double hard_shades[4] = {0.35, 0.1, -0.25, 0.4};
+const double even_shades[4] = {0.6, 0.05, -0.1, 0.2};
 
 // A sphere of the table frame seen by a camera: each pixel's brightness from 8 x 8 rays, by ray and sphere alone.
-std::vector<uint8_t> render(const pong_camera &camera, const Eigen::Vector3d &centre, double radius, unsigned seed)
+std::vector<uint8_t> render(const pong_camera &camera, const Eigen::Vector3d &centre, double radius,
+			    const double *shades, unsigned seed)
 {
 	const int fine = 8;
 	const pong::Camera parts(camera);
@@ -53,12 +57,37 @@ struct Sight {
 	pong_detection detection;
 	double uv[2];
 
-	Sight(pong_side side, const Eigen::Vector3d &place) : camera(test_rig().camera[side])
+	Sight(pong_side side, const Eigen::Vector3d &place, const double *shades = hard_shades)
+		: camera(test_rig().camera[side])
 	{
-		current = render(camera, place, 0.020, 1);
-		earlier = render(camera, Eigen::Vector3d(0, 5, 1), 0.001, 2);
+		current = render(camera, place, 0.020, shades, 1);
+		earlier = render(camera, Eigen::Vector3d(0, 5, 1), 0.001, shades, 2);
 		pong_project(&camera, place.data(), uv);
 		detection = {uv[0] + 0.6, uv[1] - 0.5, pong_apparent_size(&camera, place.data(), 0.040) * 1.05, 60};
+	}
+
+	// Cut the first columns off both pictures: a camera with its principal point farther left.
+	void crop_left(int columns)
+	{
+		const auto crop = [&](std::vector<uint8_t> &pixels) {
+			std::vector<uint8_t> rest;
+			for (int v = 0; v < camera.height; v++)
+				rest.insert(rest.end(), pixels.begin() + v * camera.width + columns,
+					    pixels.begin() + (v + 1) * camera.width);
+			pixels = rest;
+		};
+		crop(current);
+		crop(earlier);
+		camera.width -= columns;
+		for (int i = 0; i < 4; i++)
+			camera.P[0][i] -= columns * camera.P[2][i];
+		uv[0] -= columns;
+		detection.u -= columns;
+	}
+
+	void cover_below(int row, uint8_t level)
+	{
+		std::fill(current.begin() + row * camera.width, current.end(), level);
 	}
 
 	// The centre's distance from where it is, px; 99 where there is none.
@@ -83,9 +112,54 @@ TEST(Locate, FollowsShadedBallsByEveryMethod)
 	pong_centre centre;
 	EXPECT_LT(sight.error(PONG_LOCATE_GAUSSIAN, &centre), 6);
 	EXPECT_LT(sight.error(PONG_LOCATE_CENTROID, &centre), 1);
-	// The outline is brighter than the background above, darker below, and neither in between: hard for edges.
-	EXPECT_LT(sight.error(PONG_LOCATE_EDGES, &centre), 1.2);
 	EXPECT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
+}
+
+// Where all of the outline is brighter than the background, edges see it to a tenth of a pixel.
+TEST(Locate, FindsTheOutlineByItsEdges)
+{
+	for (const double x : {-0.1, 0.0, 0.1})
+		for (const double z : {0.8, 1.5, 2.2}) {
+			const Sight sight(PONG_LEFT, {x, 0.25, z}, even_shades);
+			pong_centre centre;
+			EXPECT_LT(sight.error(PONG_LOCATE_EDGES, &centre), 0.1) << x << " " << z;
+			EXPECT_EQ(centre.flags, 0u);
+		}
+}
+
+// A lamp that flickers, or a shadow, changes what is behind the ball.
+TEST(Locate, BearsOtherLightBehindTheBall)
+{
+	Sight sight(PONG_LEFT, {0.1, 0.25, 1.5}, even_shades);
+	for (uint8_t &pixel : sight.earlier)
+		pixel = static_cast<uint8_t>(0.9 * pixel);
+	pong_centre centre;
+	EXPECT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
+}
+
+// The left part of the ball is out of the picture.
+TEST(Locate, FlagsWhatTheBorderCuts)
+{
+	Sight sight(PONG_LEFT, {0.1, 0.25, 1.0}, even_shades);
+	pong_centre whole, cut;
+	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &whole), 0.05);
+	EXPECT_EQ(whole.flags, 0u);
+	sight.crop_left(static_cast<int>(sight.uv[0] - 0.6 * whole.radius));
+	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &cut), 0.3);
+	EXPECT_EQ(cut.flags, static_cast<unsigned>(PONG_CENTRE_CUT));
+	EXPECT_GT(cut.covariance[0][0], whole.covariance[0][0]);
+}
+
+// A racket of one brightness hides the lower part of the ball.
+TEST(Locate, FlagsWhatIsCovered)
+{
+	Sight sight(PONG_LEFT, {0.1, 0.25, 1.0}, even_shades);
+	pong_centre whole, covered;
+	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &whole), 0.05);
+	sight.cover_below(static_cast<int>(sight.uv[1] + 0.6 * whole.radius), 20);
+	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &covered), 1);
+	EXPECT_EQ(covered.flags, static_cast<unsigned>(PONG_CENTRE_COVERED));
+	EXPECT_GT(covered.covariance[1][1], 2 * whole.covariance[1][1]);
 }
 
 // Off the axis and close, the outline is an ellipse whose middle is not the ball's centre.
@@ -154,11 +228,14 @@ TEST(Streak, IsTheWayOfThePicture)
 {
 	const pong_rig rig = test_rig();
 	const double position[3] = {0, 0.3, 1.5}, velocity[3] = {10, 0, 0};
-	double streak[2];
+	double streak[3];
 	ASSERT_EQ(pong_streak(&rig.camera[PONG_LEFT], position, velocity, 0.002, streak), PONG_FOUND);
 	const double size = pong_apparent_size(&rig.camera[PONG_LEFT], position, 0.020);
 	EXPECT_NEAR(streak[0], -size, 1e-3); // 20 mm to the robot's left are to the left in the picture
 	EXPECT_NEAR(streak[1], 0, 1e-3);
+	const double coming[3] = {0, 0, -10};
+	ASSERT_EQ(pong_streak(&rig.camera[PONG_LEFT], position, coming, 0.002, streak), PONG_FOUND);
+	EXPECT_NEAR(streak[2], 0.020 / (1.5 + 0.4), 1e-3); // it comes 20 mm nearer, 1.9 m before the camera
 }
 
 } // namespace

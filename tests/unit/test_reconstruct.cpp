@@ -15,7 +15,7 @@ pong_centre centre_of(const pong_camera &camera, const double position[3], doubl
 {
 	double uv[2];
 	pong_project(&camera, position, uv);
-	return {uv[0], uv[1], pong_apparent_size(&camera, position, 0.040) / 2, {{su * su, 0}, {0, sv * sv}}};
+	return {uv[0], uv[1], pong_apparent_size(&camera, position, 0.040) / 2, {{su * su, 0}, {0, sv * sv}}, 0, 0};
 }
 
 TEST(Reconstruct, TriangulatesWhatIsProjected)
@@ -32,8 +32,8 @@ TEST(Reconstruct, TriangulatesWhatIsProjected)
 	EXPECT_NEAR(pong_epipolar_distance(rig.camera, left, right), 2, 1e-6);
 }
 
-// Normalised error squared averages 3, when the centres are as uncertain as they say.
-TEST(Reconstruct, CovarianceIsTrue)
+// Normalised error squared averages 3, when the centres are as uncertain as they say, and as alike in what they err.
+void expect_true_covariance(double common)
 {
 	const pong_rig rig = test_rig();
 	pong_settings settings;
@@ -45,10 +45,16 @@ TEST(Reconstruct, CovarianceIsTrue)
 	const int trials = 2000;
 	for (int i = 0; i < trials; i++) {
 		pong_centre centre[2];
+		const double both[2] = {normal(random), normal(random)};
 		for (int side = 0; side < 2; side++) {
 			centre[side] = centre_of(rig.camera[side], place, sigma[side][0], sigma[side][1]);
-			centre[side].u += sigma[side][0] * normal(random);
-			centre[side].v += sigma[side][1] * normal(random);
+			const auto error = [&](int axis) {
+				return sigma[side][axis] *
+				       (std::sqrt(common) * both[axis] + std::sqrt(1 - common) * normal(random));
+			};
+			centre[side].u += error(0);
+			centre[side].v += error(1);
+			centre[side].common = common;
 		}
 		pong_point point;
 		ASSERT_EQ(pong_reconstruct(&rig, &centre[0], &centre[1], &settings, &point), PONG_FOUND);
@@ -57,6 +63,12 @@ TEST(Reconstruct, CovarianceIsTrue)
 		sum += error.dot(Eigen::Map<Eigen::Matrix3d>(&point.covariance[0][0]).inverse() * error);
 	}
 	EXPECT_NEAR(sum / trials, 3, 0.2);
+}
+
+TEST(Reconstruct, CovarianceIsTrue)
+{
+	expect_true_covariance(0);
+	expect_true_covariance(0.5);
 }
 
 TEST(Reconstruct, RefusesWhatIsNotOneBall)

@@ -145,7 +145,7 @@ public:
 		eyes_.settings.locate.method = method;
 		pong_centre centre[2];
 		pong_point point;
-		double streak[2];
+		double streak[3];
 		for (int side = 0; side < 2; side++) {
 			const pong_pictures pictures = ring_.shots[i].pictures(static_cast<pong_side>(side));
 			const pong_camera &camera = studio_.rig().camera[side];

@@ -1,5 +1,7 @@
 #include "studio.hpp"
 
+#include <cmath>
+
 #include "program.hpp"
 
 namespace bench
@@ -20,10 +22,9 @@ Studio::Studio(const sim::Scene &scene, uint64_t seed)
 		throw pong::Failure(error.text);
 }
 
-bool Studio::take(const Eigen::Vector3d &position, const Eigen::Vector3d &velocity, Shot *shot)
+sim::Episode Studio::make_episode(const Eigen::Vector3d &position, const Eigen::Vector3d &velocity, double lead) const
 {
-	const double lead = 0.01; // s of flight before the exposure
-	sim::Episode episode = {1, 0, 1, {}, {}, {}};
+	sim::Episode episode = {1, 0, lead + 1, {}, {}, {}};
 	if (velocity.norm() > 0) {
 		sim::Ball launch;
 		launch.position = position - lead * velocity;
@@ -33,13 +34,21 @@ bool Studio::take(const Eigen::Vector3d &position, const Eigen::Vector3d &veloci
 	} else {
 		episode.resting = position;
 	}
-	const Eigen::Vector3d middle = shot->position = episode.ball(lead).position;
+	return episode;
+}
+
+bool Studio::expose(const sim::Episode &episode, double time, Shot *shot)
+{
+	const sim::Ball middle = episode.ball(time);
+	shot->time = time;
+	shot->position = middle.position;
+	shot->velocity = middle.velocity;
 	const uint64_t frame = frame_++;
 	shot->width = cameras_[0].width;
 	shot->height = cameras_[0].height;
 	for (size_t side = 0; side < 2; side++) {
 		Eigen::Vector2d uv;
-		if (!sim::wholly_seen(cameras_[side], middle) || !cameras_[side].project(middle, &uv))
+		if (!sim::wholly_seen(cameras_[side], middle.position) || !cameras_[side].project(middle.position, &uv))
 			return false;
 		shot->uv[side][0] = uv.x();
 		shot->uv[side][1] = uv.y();
@@ -47,10 +56,36 @@ bool Studio::take(const Eigen::Vector3d &position, const Eigen::Vector3d &veloci
 			auto &pixels = shot->pixels[side][i];
 			pixels.resize(static_cast<size_t>(shot->width) * static_cast<size_t>(shot->height));
 			renderers_[side].render(i == 0 ? &episode : nullptr,
-						{lead, scene_.picture.exposure, 3 * frame + i}, pixels.data());
+						{time, scene_.picture.exposure, 3 * frame + i}, pixels.data());
 		}
 	}
 	return true;
+}
+
+bool Studio::take(const Eigen::Vector3d &position, const Eigen::Vector3d &velocity, Shot *shot)
+{
+	const double lead = 0.01; // s of flight before the exposure
+	return expose(make_episode(position, velocity, lead), lead, shot);
+}
+
+std::vector<Shot> Studio::follow(const Eigen::Vector3d &position, const Eigen::Vector3d &velocity, int earlier,
+				 double rate)
+{
+	const double lead = earlier / rate + 0.01;
+	// From the middle height, neither through the table nor from above the pictures.
+	const double middle = 0.25; // m
+	Eigen::Vector3d in_sight = velocity;
+	in_sight.y() = std::copysign(velocity.y(), position.y() - middle);
+	const sim::Episode episode = make_episode(position, in_sight, lead);
+	std::vector<Shot> shots;
+	for (int i = earlier; i >= 0; i--) {
+		Shot shot;
+		if (expose(episode, lead - i / rate, &shot))
+			shots.push_back(std::move(shot));
+		else if (i == 0)
+			shots.clear();
+	}
+	return shots;
 }
 
 } // namespace bench
