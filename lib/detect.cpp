@@ -26,6 +26,11 @@ pong_detector *make_detector(const pong_region &region, const pong_settings &set
 
 } // namespace
 
+bool cluttered(const pong_detector &detector)
+{
+	return detector.method->cluttered();
+}
+
 } // namespace pong
 
 pong_detector *pong_detector_new(const pong_region *region, const pong_settings *settings, pong_error *error)

@@ -6,15 +6,15 @@
 // 2. Cells that lie outside of both, and are neighbours but for one, are one group: a ball before a bright wall may be
 //    brighter than it above and darker below.
 // 3. A group is looked at close up, pixel by pixel. If what is lit there is a ball, it is one detection.
-// 4. A larger group may be a ball beside something else that moves. It is scanned for the five points.
+// 4. Other groups may be a ball before or beside something else that moves: the picture is searched for circles there.
 //
 // A lamp that flickers makes the whole picture brighter or darker: a gain, measured together with the noise.
 #include <cmath>
 #include <vector>
 
 #include "blob.hpp"
+#include "circles.hpp"
 #include "conditions.hpp"
-#include "five_points.hpp"
 #include "region.hpp"
 
 namespace pong
@@ -27,18 +27,24 @@ const double noise_factor = 4.5;  // a cell is lit from so many standard deviati
 const double contrast_part = 0.3; // and from this part of the least contrast of a ball
 const double noise_least = 0.25;  // of a cell's mean, grey levels: pictures are rounded
 const double noise_most = 4;
-const int reach = 2;            // cells of a group are so close to each other, in cells
-const int sampled_strips = 4;   // rows of cells that tell noise and gain
-const int sampled_cells = 64;   // of each
-const int close_margin = 6;     // a group is looked at with so many pixels around, px
-const double close_noise = 1.5; // the noise of a patch's 3 x 3 mean, over that of a cell's
-const int tries_most = 64;      // measurements of one large group
-const double larger = 1.5;      // groups this much larger than the largest ball are more than a ball
+const double noise_learned = 0.2;             // of what one more whole picture shows
+const double noise_surprising = 2.5;          // times the usual noise: that is no noise
+const int reach = 2;                          // cells of a group are so close to each other, in cells
+const int sampled_strips = 4;                 // rows of cells that tell noise and gain
+const int sampled_cells = 64;                 // of each
+const int close_margin = 6;                   // a group is looked at with so many pixels around, px
+const double close_noise = 1.5;               // the noise of a patch's 3 x 3 mean, over that of a cell's
+const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
+const double shown_anywhere = 0.85;           // of a ball's outline, where something else moves around it,
+const double shown_in_window = 0.75;          // and where one is expected there
+const int clutter_cells = 4;                  // noise alone lights no groups of so many cells
+const double pixel_noise = cell_size / 1.414; // a pixel's noise over that of the difference of two cells' means
 
 // A group of cells close to each other.
 struct Group {
 	int columns[2], rows[2]; // first and last
 	double weight, weight2;  // sums of the cells' differences and of their squares
+	int cells;
 
 	double contrast() const // grey levels; the full cells count most
 	{
@@ -60,24 +66,26 @@ public:
 	int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 		   int capacity) override;
 
+	bool cluttered() const override
+	{
+		return cluttered_;
+	}
+
 private:
 	Area searched_cells(const pong_window *window) const;
-	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells);
+	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells, bool windowed);
 	void light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells);
 	void light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row, int begin,
 			 int count);
 	Group take_group(int first);
 	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 		    const Conditions &conditions, pong_detection *found, int count, int capacity);
-	int scan_five_points(const Area &area, double contrast, const BallLimits &limits, pong_detection *found,
-			     int count, int capacity);
 	bool in_region(const pong_detection &ball) const;
 	BallLimits limits_at(int v, const pong_window *window, const Conditions &conditions) const;
 
 	const pong_region &region_;
 	double contrast_;
-	int columns_, rows_; // of cells
-	std::vector<FivePoints> sizes_;
+	int columns_, rows_;         // of cells
 	std::vector<Area> strips_;   // by row of cells: the columns of the region
 	std::vector<int32_t> lit_;   // by cell, with a border: how far outside of both, 0 if not lit
 	std::vector<int> lit_cells_; // places in lit_, in the order of scan
@@ -85,11 +93,13 @@ private:
 	std::vector<uint32_t> now_, earlier_; // one row of cells
 	std::vector<int32_t> to_then_, to_before_;
 	Patch patch_;
+	double noise_ = 0; // of a cell, as whole pictures have shown it, grey levels; 0: none has yet
+	bool cluttered_ = false;
 };
 
 DoubleDifference::DoubleDifference(const pong_region &region, const pong_settings &settings)
 	: region_(region), contrast_(settings.detect.contrast), columns_(region.width / cell_size),
-	  rows_(region.height / cell_size), sizes_(five_points_of(region)), patch_(region.width, region.height)
+	  rows_(region.height / cell_size), patch_(region.width, region.height)
 {
 	const size_t cells = static_cast<size_t>(columns_ + 2 * reach) * static_cast<size_t>(rows_ + 2 * reach);
 	lit_.resize(cells);
@@ -120,20 +130,13 @@ Area DoubleDifference::searched_cells(const pong_window *window) const
 			  pixels.v_begin / cell_size, (pixels.v_end + cell_size - 1) / cell_size});
 }
 
-bool known(const pong_detection &ball, const pong_detection *found, int count)
-{
-	return std::any_of(found, found + count, [&](const pong_detection &other) {
-		return std::hypot(ball.u - other.u, ball.v - other.v) < std::max(ball.size, other.size) / 2;
-	});
-}
-
 const uint8_t *corner(const pong_image &image, int column, int row)
 {
 	return image.pixels + row * cell_size * image.stride + column * cell_size;
 }
 
 // Samples of a few strips, and what they say.
-Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, const Area &cells)
+Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, const Area &cells, bool windowed)
 {
 	CellSamples samples[2]; // the current picture against each of the earlier ones
 	const int strips = std::min(sampled_strips, cells.v_end - cells.v_begin);
@@ -155,8 +158,14 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 		sample(sums(pictures.earlier[1]), begin, samples[1].then);
 		samples[0].count = samples[1].count = begin + (columns + every - 1) / every;
 	}
-	const Gains gains = {{measure_gain(samples[0]), measure_gain(samples[1])}};
-	return {gains, std::clamp(measure_noise(samples[0], gains.of[0]), noise_least, noise_most)};
+	Gains gains = {{measure_gain(samples[0]), measure_gain(samples[1])}};
+	const double noise = measure_noise(samples[0], gains.of[0]);
+	if (!windowed)
+		noise_ += (noise_ > 0 ? noise_learned : 1) * (std::clamp(noise, noise_least, noise_most) - noise_);
+	// In a window something else that moves may be all that there is: of it comes no gain.
+	else if (noise > noise_surprising * noise_)
+		gains = {{gain_one, gain_one}};
+	return {gains, std::max(noise_, noise_least)};
 }
 
 // Light the cells of one strip that lie outside of both earlier pictures.
@@ -203,7 +212,7 @@ void DoubleDifference::light_cells(const pong_pictures &pictures, const Conditio
 Group DoubleDifference::take_group(int first)
 {
 	const int stride = columns_ + 2 * reach;
-	Group group = {{columns_, -1}, {rows_, -1}, 0, 0};
+	Group group = {{columns_, -1}, {rows_, -1}, 0, 0, 0};
 	const auto take = [&](int place) {
 		const double weight = lit_[static_cast<size_t>(place)];
 		const int column = place % stride - reach, row = place / stride - reach;
@@ -214,6 +223,7 @@ Group DoubleDifference::take_group(int first)
 		group.rows[1] = std::max(group.rows[1], row);
 		group.weight += weight;
 		group.weight2 += weight * weight;
+		group.cells++;
 		stack_.push_back(place);
 	};
 	take(first);
@@ -262,39 +272,11 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
 		return in_region(ball) ? insert_detection(ball, found, count, capacity) : count;
+	cluttered_ |= group.cells >= clutter_cells;
 	if (extent < larger * limits.size_min)
 		return count;
-	return scan_five_points(area, group.contrast(), limits, found, count, capacity);
-}
-
-// Scan for upper left boundary points in the patch, and try the sizes there. What they find is measured.
-int DoubleDifference::scan_five_points(const Area &area, double contrast, const BallLimits &limits,
-				       pong_detection *found, int count, int capacity)
-{
-	const int level = static_cast<int>(patch_one * lit_level(contrast, limits));
-	const auto lit = [&](int u, int v) { return patch_.at(u, v) > level; };
-	int tries = tries_most;
-	for (int v = area.v_begin; v < area.v_end; v++)
-		for (int u = area.u_begin; u < area.u_end; u++) {
-			if (!lit(u, v) || lit(u - 1, v - 1))
-				continue;
-			for (const FivePoints &points : sizes_between(sizes_, limits.size_min, limits.size_max)) {
-				if (!match(points, u, v, lit))
-					continue;
-				const int half = static_cast<int>(0.6 * points.size) + 1;
-				const int cu = u + points.centre.u, cv = v + points.centre.v;
-				const Area box =
-					intersect(patch_.area(), {cu - half, cu + half + 1, cv - half, cv + half + 1});
-				pong_detection ball;
-				if (tries-- == 0)
-					return count;
-				if (!measure_blob(patch_, box, contrast, limits, &ball) || !in_region(ball) ||
-				    known(ball, found, count))
-					continue;
-				count = insert_detection(ball, found, count, capacity);
-			}
-		}
-	return count;
+	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise,
+			    window ? shown_in_window : shown_anywhere, found, count, capacity);
 }
 
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
@@ -303,8 +285,9 @@ int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *w
 	const Area cells = searched_cells(window);
 	if (cells.empty())
 		return 0;
-	const Conditions conditions = measure_conditions(pictures, cells);
+	const Conditions conditions = measure_conditions(pictures, cells, window != nullptr);
 	light_cells(pictures, conditions, cells);
+	cluttered_ = false;
 	int count = 0;
 	for (const int place : lit_cells_)
 		if (lit_[static_cast<size_t>(place)])

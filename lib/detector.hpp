@@ -17,7 +17,15 @@ public:
 	// As pong_detect; capacity is at least 1.
 	virtual int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			   int capacity) = 0;
+
+	// Whether something moved where the last search looked that is neither a ball nor noise.
+	virtual bool cluttered() const
+	{
+		return false;
+	}
 };
+
+bool cluttered(const pong_detector &detector);
 
 // The region outlives them.
 std::unique_ptr<DetectMethod> make_difference(const pong_region &region, const pong_settings &settings);

@@ -29,19 +29,22 @@ double seconds(int64_t from, int64_t to)
 	return static_cast<double>(to - from) * 1e-6;
 }
 
-Parameters usual_parameters(const pong_ball_spec &ball)
+Parameters usual_parameters(const pong_rig &rig)
 {
+	const pong_ball_spec &ball = rig.ball;
 	Parameters usual;
 	usual << 0, 0, 0, usual_velocity, 0, 0, 0, ball.drag, ball.magnus, ball.restitution, ball.friction, ball.grip,
-		0, 0;
+		rig.table.height, 0, 0;
 	return usual;
 }
 
-Parameters usual_sigmas(const pong_ball_spec &ball)
+Parameters usual_sigmas(const pong_rig &rig)
 {
+	const pong_ball_spec &ball = rig.ball;
 	Parameters sigmas;
 	sigmas << Vector3::Constant(position_sigma), velocity_sigma, vector_of(ball.spin_sigma), ball.drag_sigma,
-		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, ball.kick, ball.kick;
+		ball.magnus_sigma, ball.restitution_sigma, ball.friction_sigma, ball.grip_sigma, rig.table.height_sigma,
+		ball.kick, ball.kick;
 	return sigmas;
 }
 
@@ -56,14 +59,9 @@ void Estimate::clear()
 {
 	count_ = 0;
 	noise_.clear();
-	prior_mean_ = usual_parameters(rig_.ball);
-	prior_information_ = usual_sigmas(rig_.ball)
-				     .cwiseMax(std::sqrt(least_variance))
-				     .array()
-				     .square()
-				     .inverse()
-				     .matrix()
-				     .asDiagonal();
+	prior_mean_ = usual_parameters(rig_);
+	prior_information_ =
+		usual_sigmas(rig_).cwiseMax(std::sqrt(least_variance)).array().square().inverse().matrix().asDiagonal();
 }
 
 void Estimate::begin(const pong_point &point)

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "camera.hpp"
+#include "detector.hpp"
 #include "error.hpp"
+#include "outline.hpp"
 #include "region.hpp"
+#include "track.hpp"
 
 namespace pong
 {
@@ -16,7 +19,16 @@ namespace pong
 namespace
 {
 
-const int balls_capacity = 16; // places in one picture that look like a ball
+const int balls_capacity = 16;  // places in one picture that look like a ball
+const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
+const double faint_error = 0.1; // of its centre then, radii
+const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
+// Two centres of a ball agree better than those of anything else that moves: with each other's epipolar lines (px, and
+// parts of the radius), their sizes with the distance (parts), and its outline is seen.
+const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
+const double certain_size = 0.08;
+const double certain_shown = 0.87;    // of the outline: an arm's end shows less
+const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Lets a unique_ptr own what a _new of the public header made.
@@ -31,7 +43,7 @@ using Region = std::unique_ptr<pong_region, Deleter<pong_region_free>>;
 using Detector = std::unique_ptr<pong_detector, Deleter<pong_detector_free>>;
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
 
-// The last pictures of one camera, copied: what a new one is compared with.
+// The last pictures of one camera, copied: the newest, and those that it is compared with.
 class PictureRing
 {
 public:
@@ -41,15 +53,15 @@ public:
 	{
 	}
 
-	bool empty() const
+	size_t count() const
 	{
-		return count_ == 0;
+		return count_;
 	}
 
-	// The one that was added `age` pictures ago, or the oldest.
+	// The one that was added `age` pictures before the newest, or the oldest.
 	pong_image earlier(size_t age) const
 	{
-		const uint8_t *pixels = pixels_[(count_ - std::min(age, count_)) % pixels_.size()].data();
+		const uint8_t *pixels = pixels_[(count_ - 1 - std::min(age, count_ - 1)) % pixels_.size()].data();
 		return {pixels, width_, height_, width_};
 	}
 
@@ -72,6 +84,7 @@ struct Balls {
 	int count = 0;
 	pong_centre centre[balls_capacity];
 	double contrast[balls_capacity];
+	double shown[balls_capacity]; // of the outline
 };
 
 // One camera's stages, from picture to centres.
@@ -96,30 +109,49 @@ Side make_side(const pong_rig &rig, pong_side side, const pong_settings &setting
 	return {camera,
 		std::move(region),
 		std::move(detector),
-		PictureRing(camera.width, camera.height, 2 * settings.detect.gap),
+		PictureRing(camera.width, camera.height, 2 * settings.detect.gap + 1),
 		{}};
 }
 
-// Where the ball that is followed must be now: in which window, and how far its picture moves during the exposure.
+// Where the ball that is followed must be now in one camera's picture, and how far it moves there during the exposure.
 struct Expectation {
-	const pong_window *window; // null: anywhere
-	const double *streak;      // null: unknown
+	bool windowed, streaked; // whether what follows is known
+	pong_window window;
+	double streak[3];
 };
 
-void look(Side &side, const pong_image &image, const Expectation &expected, const pong_settings &settings)
+// The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
+// detection's own centre stands.
+bool locate(const Side &side, const pong_pictures &pictures, const pong_detection &found, const double *streak,
+	    const pong_settings &settings, pong_centre *centre)
 {
-	side.balls.count = 0;
-	if (side.pictures.empty())
+	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
+		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
+	const double variance = std::pow(faint_error * found.size / 2, 2);
+	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
+	return true;
+}
+
+// Look at the newest picture.
+void look(Side &side, const Expectation &expected, const pong_settings &settings)
+{
+	Balls &balls = side.balls;
+	balls.count = 0;
+	if (side.pictures.count() < 2)
 		return;
 	pong_detection found[balls_capacity];
 	const size_t gap = static_cast<size_t>(settings.detect.gap);
-	const pong_pictures pictures = {image, {side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
-	const int count = pong_detect(side.detector.get(), &pictures, expected.window, found, balls_capacity);
+	const pong_pictures pictures = {side.pictures.earlier(0),
+					{side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
+	const pong_window *window = expected.windowed ? &expected.window : nullptr;
+	const double *streak = expected.streaked ? expected.streak : nullptr;
+	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
 	for (int i = 0; i < count; i++) {
-		Balls &balls = side.balls;
-		if (!pong_locate(&side.camera, &pictures, &found[i], expected.streak, &settings,
-				 &balls.centre[balls.count]))
+		pong_centre &centre = balls.centre[balls.count];
+		if (!locate(side, pictures, found[i], streak, settings, &centre))
 			continue;
+		balls.shown[balls.count] =
+			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).shown;
 		balls.contrast[balls.count++] = found[i].contrast;
 	}
 }
@@ -136,7 +168,12 @@ struct pong_eye {
 	Side side[2];
 	Track track;
 	bool begun;
-	int64_t last_utime;
+	int64_t utime; // of the pair that is looked at
+
+	// What the track makes expect of that pair: set before the two looks, which only read it.
+	bool expecting;
+	pong_state expected;
+	Expectation side_expected[2];
 };
 
 namespace pong
@@ -149,6 +186,7 @@ namespace
 struct Match {
 	const pong_centre *left, *right;
 	pong_point point;
+	double doubt; // below 1: this is a ball and nothing else
 };
 
 // Where the ball that is followed must be now.
@@ -159,20 +197,43 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 	       pong_predict_at(&eye.rig, &recent, utime, &eye.settings, expected);
 }
 
-// Of all pairs of centres that can be one ball: the nearest to where it is expected, or else the brightest.
+// How badly the two centres agree, and the ball shows, in parts of what a ball never exceeds.
+double doubt_of(const pong_eye &eye, const Match &match, double shown)
+{
+	const pong_centre *centre[2] = {match.left, match.right};
+	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
+	const double reach = certain_epipolar + certain_epipolar_size * (match.left->radius + match.right->radius) / 2;
+	double doubt = std::abs(pong_epipolar_distance(eye.rig.camera, left_uv, right_uv)) / reach;
+	for (int side = 0; side < 2; side++) {
+		const double expected =
+			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
+		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
+	}
+	return std::max(doubt, (1 - shown) / (1 - certain_shown));
+}
+
+// Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
+// brightest; at best the one of least doubt, near to where it is expected.
+double cost_of(const pong_eye &eye, const pong_state *expected, const Match &match, double contrast)
+{
+	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm() : 0;
+	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
+		return expected ? distance : -contrast;
+	return match.doubt + distance / doubtful_distance;
+}
+
 bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 {
 	const Balls &left = eye.side[PONG_LEFT].balls, &right = eye.side[PONG_RIGHT].balls;
 	double best_cost = std::numeric_limits<double>::infinity();
 	for (int l = 0; l < left.count; l++)
 		for (int r = 0; r < right.count; r++) {
-			Match match = {&left.centre[l], &right.centre[r], {}};
+			Match match = {&left.centre[l], &right.centre[r], {}, 0};
 			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
 			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
-			const double cost =
-				expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm()
-					 : -left.contrast[l] - right.contrast[r];
+			match.doubt = doubt_of(eye, match, std::min(left.shown[l], right.shown[r]));
+			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
 			if (cost < best_cost) {
 				best_cost = cost;
 				*best = match;
@@ -181,33 +242,49 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 	return best_cost < std::numeric_limits<double>::infinity();
 }
 
-// Look into the window where the ball is expected; if it is not there, or none is expected, everywhere.
-bool find_ball(pong_eye &eye, int64_t utime, const pong_image image[2], pong_sight *sight, Match *match)
+// Where nothing else moves, what looks like a ball is one.
+Trust trust_of(const pong_eye &eye, const Match &match)
 {
-	pong_state expected;
-	pong_window window[2];
-	const bool expecting = expected_position(eye, utime, &expected);
-	sight->windowed =
-		expecting &&
-		pong_window_around(&eye.rig, PONG_LEFT, expected.position, &eye.settings, &window[PONG_LEFT]) &&
-		pong_window_around(&eye.rig, PONG_RIGHT, expected.position, &eye.settings, &window[PONG_RIGHT]);
-	double streak[2][3];
-	bool streaked[2];
-	for (int side = 0; side < 2; side++)
-		streaked[side] = expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
-							  eye.settings.locate.exposure, streak[side]);
+	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
+		return Trust::usual;
+	if (cluttered(*eye.side[PONG_LEFT].detector) || cluttered(*eye.side[PONG_RIGHT].detector))
+		return match.doubt < 1 ? Trust::likely : Trust::none;
+	return match.doubt < 1 ? Trust::certain : Trust::usual;
+}
+
+void expect(pong_eye &eye)
+{
+	eye.expecting = expected_position(eye, eye.utime, &eye.expected);
+	const pong_state &expected = eye.expected;
+	bool windowed = eye.expecting;
+	for (int side = 0; side < 2; side++) {
+		Expectation &there = eye.side_expected[side];
+		there.streaked =
+			eye.expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
+						     eye.settings.locate.exposure, there.streak);
+		windowed = windowed && pong_window_around(&eye.rig, static_cast<pong_side>(side), expected.position,
+							  &eye.settings, &there.window);
+	}
+	for (Expectation &there : eye.side_expected)
+		there.windowed = windowed;
+}
+
+// Both have looked into the window where the ball is expected; if it is not there, they look everywhere.
+bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
+{
+	sight->windowed = eye.side_expected[PONG_LEFT].windowed;
 	for (;;) {
-		for (int side = 0; side < 2; side++) {
-			look(eye.side[side], image[side],
-			     {sight->windowed ? &window[side] : nullptr, streaked[side] ? streak[side] : nullptr},
-			     eye.settings);
+		for (int side = 0; side < 2; side++)
 			sight->detections[side] = eye.side[side].balls.count;
-		}
-		if (match_sides(eye, expecting ? &expected : nullptr, match))
+		if (match_sides(eye, eye.expecting ? &eye.expected : nullptr, match))
 			return true;
 		if (!sight->windowed)
 			return false;
 		sight->windowed = 0;
+		for (int side = 0; side < 2; side++) {
+			eye.side_expected[side].windowed = false;
+			look(eye.side[side], eye.side_expected[side], eye.settings);
+		}
 	}
 }
 
@@ -248,7 +325,7 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 
 void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 {
-	if (pong_track_push(eye.track.get(), &match.point) == PONG_TRACK_REJECTED) {
+	if (push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
@@ -259,36 +336,21 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 	sight->has_prediction = predict(eye, match.point.utime, &sight->prediction);
 }
 
-void check_size(const pong_camera &camera, const pong_image &image, const char *name)
+void check_size(const pong_eye &eye, pong_side side, const pong_image &image)
 {
+	const pong_camera &camera = eye.rig.camera[side];
 	if (image.width != camera.width || image.height != camera.height)
-		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d", name,
-						       image.width, image.height, camera.width, camera.height)};
+		throw Fault{PONG_ERROR_VALUE, sentence("the %s picture is %d x %d, its camera in the rig %d x %d",
+						       side == PONG_LEFT ? "left" : "right", image.width, image.height,
+						       camera.width, camera.height)};
 }
 
-int push(pong_eye &eye, int64_t utime, int64_t frame, const pong_image image[2], pong_sight *sight)
+int look(pong_eye &eye, pong_side side, const pong_image &image)
 {
-	check_size(eye.rig.camera[PONG_LEFT], image[PONG_LEFT], "left");
-	check_size(eye.rig.camera[PONG_RIGHT], image[PONG_RIGHT], "right");
-	if (eye.begun && utime <= eye.last_utime) {
-		sight->outcome = PONG_OUT_OF_ORDER;
-		return PONG_NONE;
-	}
-	eye.begun = true;
-	eye.last_utime = utime;
-	pong_track_miss(eye.track.get(), utime);
-
-	Match match;
-	if (find_ball(eye, utime, image, sight, &match)) {
-		match.point.utime = utime;
-		match.point.frame = frame;
-		follow_ball(eye, match, sight);
-	} else {
-		sight->outcome = outcome_without_match(*sight);
-	}
-	for (int side = 0; side < 2; side++)
-		eye.side[side].pictures.add(image[side]);
-	return sight->has_ball ? PONG_FOUND : PONG_NONE;
+	check_size(eye, side, image);
+	eye.side[side].pictures.add(image);
+	look(eye.side[side], eye.side_expected[side], eye.settings);
+	return eye.side[side].balls.count;
 }
 
 pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
@@ -302,7 +364,10 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 			    {make_side(rig, PONG_LEFT, settings), make_side(rig, PONG_RIGHT, settings)},
 			    std::move(track),
 			    false,
-			    0};
+			    0,
+			    false,
+			    {},
+			    {}};
 }
 
 } // namespace
@@ -319,10 +384,49 @@ void pong_eye_free(pong_eye *eye)
 	delete eye;
 }
 
+int pong_eye_expect(pong_eye *eye, int64_t utime)
+{
+	if (eye->begun && utime <= eye->utime)
+		return PONG_NONE;
+	eye->begun = true;
+	eye->utime = utime;
+	pong_track_miss(eye->track.get(), utime);
+	expect(*eye);
+	return PONG_FOUND;
+}
+
+int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error)
+{
+	return guarded(error, [&] { return look(*eye, side, *image); });
+}
+
+int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight)
+{
+	memset(sight, 0, sizeof *sight);
+	Match match;
+	if (find_ball(*eye, sight, &match)) {
+		match.point.utime = eye->utime;
+		match.point.frame = frame;
+		follow_ball(*eye, match, sight);
+	} else {
+		sight->outcome = outcome_without_match(*sight);
+	}
+	return sight->has_ball ? PONG_FOUND : PONG_NONE;
+}
+
 int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 		  pong_sight *sight, pong_error *error)
 {
 	memset(sight, 0, sizeof *sight);
-	const pong_image image[2] = {*left, *right};
-	return guarded(error, [&] { return push(*eye, utime, frame, image, sight); });
+	return guarded(error, [&] {
+		check_size(*eye, PONG_LEFT, *left);
+		check_size(*eye, PONG_RIGHT, *right);
+		if (!pong_eye_expect(eye, utime)) {
+			sight->outcome = PONG_OUT_OF_ORDER;
+			return static_cast<int>(PONG_NONE);
+		}
+		look(*eye, PONG_LEFT, *left);
+		look(*eye, PONG_RIGHT, *right);
+		return pong_eye_join(eye, frame, sight);
+	});
 }

@@ -19,10 +19,10 @@ Parameters parameters_of(const pong_rig &rig, const pong_state &state)
 	const pong_ball_spec &ball = rig.ball;
 	Parameters parameters;
 	parameters << vector_of(state.position), vector_of(state.velocity), 0, 0, 0, ball.drag, ball.magnus,
-		ball.restitution, ball.friction, ball.grip, 0, 0;
+		ball.restitution, ball.friction, ball.grip, rig.table.height, 0, 0;
 	if (state.has_spin) {
 		parameters.segment<3>(PONG_STATE_SPIN) = vector_of(state.spin);
-		parameters.tail<7>() = Eigen::Map<const Eigen::Matrix<double, 7, 1>>(state.coefficients);
+		parameters.tail<coefficient_count>() = Eigen::Map<const Coefficients>(state.coefficients);
 	}
 	return parameters;
 }
@@ -73,7 +73,7 @@ private:
 		if (!state.has_spin)
 			return state;
 		store(motion.spin, state.spin);
-		Eigen::Map<Eigen::Matrix<double, 7, 1>>{state.coefficients} = parameters_.tail<7>();
+		Eigen::Map<Coefficients>{state.coefficients} = parameters_.tail<coefficient_count>();
 		Eigen::Map<ParameterMatrix>{&state.covariance[0][0]} = carry(covariance(), motion);
 		return state;
 	}
@@ -107,11 +107,12 @@ private:
 	{
 		const pong_table &table = rig_.table;
 		const Vector3 &end = trajectory_.end().position;
-		if (!table.present || trajectory_.ends_on_table() || end.y() > physics_.radius())
+		const double contact = physics_.contact_height(parameters_), surface = parameters_[PONG_STATE_HEIGHT];
+		if (!table.present || trajectory_.ends_on_table() || end.y() > contact)
 			return false;
-		if (passes(1, physics_.radius()))
-			return near_table(trajectory_.position(trajectory_.time_at(1, physics_.radius())));
-		return end.y() < below_surface && end.y() > -physics_.radius() && near_table(end);
+		if (passes(1, contact))
+			return near_table(trajectory_.position(trajectory_.time_at(1, contact)));
+		return end.y() < surface + below_surface && end.y() > surface - physics_.radius() && near_table(end);
 	}
 
 	bool near_table(const Vector3 &position) const

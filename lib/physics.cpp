@@ -187,8 +187,11 @@ void Physics::push_along_table(const Parameters &parameters, Motion &motion) con
 
 void Physics::bounce(const Parameters &parameters, Motion &motion) const
 {
-	// y(t) = r defines the moment of contact t, so dt = -dy / v_y. To that moment, through the contact, and back.
-	const Eigen::Matrix<double, 1, parameter_count> moment = -motion.position_rates.row(1) / motion.velocity.y();
+	// y(t) = r + h defines the moment of contact t, so dt = (dh - dy) / v_y. To that moment, through the contact,
+	// and back.
+	Eigen::Matrix<double, 1, parameter_count> moment = -motion.position_rates.row(1);
+	moment[PONG_STATE_HEIGHT] += 1;
+	moment /= motion.velocity.y();
 	motion.position_rates += motion.velocity * moment;
 	motion.velocity_rates += acceleration(parameters, motion) * moment;
 	push_along_table(parameters, motion);

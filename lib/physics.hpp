@@ -14,6 +14,8 @@ namespace pong
 // moment, then the coefficients.
 const int parameter_count = PONG_STATE_SIZE;
 using Parameters = Eigen::Matrix<double, parameter_count, 1>;
+const int coefficient_count = parameter_count - PONG_STATE_DRAG;
+using Coefficients = Eigen::Matrix<double, coefficient_count, 1>;
 using ParameterMatrix = Eigen::Matrix<double, parameter_count, parameter_count>;
 
 // How a vector moves with the parameters. Row by row: the compiler makes long loops of it.
@@ -52,6 +54,12 @@ public:
 	double radius() const
 	{
 		return radius_;
+	}
+
+	// Of the centre of a ball that touches the table.
+	double contact_height(const Parameters &parameters) const
+	{
+		return radius_ + parameters[PONG_STATE_HEIGHT];
 	}
 
 private:

@@ -116,6 +116,8 @@ typedef struct pong_table {
 	int present;
 	double length, width; /* m */
 	double net;           /* height of the net, m; 0: there is none */
+	double height;        /* of the surface, as the cameras see it, m: 0 but for the errors of calibration, */
+	double height_sigma;  /* whose standard deviation this is, m */
 } pong_table;
 
 typedef struct pong_rig {
@@ -174,7 +176,7 @@ typedef struct pong_corner {
 	int view;        /* which view, from 0 */
 	pong_side side;  /* the camera that saw it */
 	int point;       /* which of the board's points, from 0: the same in both cameras */
-	double board[3]; /* its place in the board frame, m */
+	double board[3]; /* its place in the board frame, m; z = 0 or nearly: a board is flat */
 	double uv[2];    /* px */
 	double spread;   /* its noise over that of a board's corner; 0 stands for 1 */
 } pong_corner;
@@ -349,6 +351,9 @@ PONG_API void pong_settings_defaults(pong_profile profile, pong_settings *settin
  * *settings is unchanged. Returns PONG_FOUND or the errors of pong_rig_load. */
 PONG_API int pong_settings_load(const char *path, pong_settings *settings, pong_error *error);
 
+/* As pong_settings_load, from text of any length; name stands for the file in errors. */
+PONG_API int pong_settings_parse(const char *text, const char *name, pong_settings *settings, pong_error *error);
+
 /* --------------------------------------------------------------------------------------------------------------
  * Region: where in a picture a ball can be, and how large it is there (paper, section 4.1)
  */
@@ -470,8 +475,8 @@ PONG_API int pong_reconstruct(const pong_rig *rig, const pong_centre *left, cons
  */
 
 /* What the full state of a ball is made of, and the place of each part in its covariance. The coefficients are those
- * of pong_ball_spec, as this flight has shown them; the kick is what its next bounce adds to the velocity along x, z.
- */
+ * of pong_ball_spec, as this flight has shown them; the height is the table's where this flight bounces; the kick is
+ * what its next bounce adds to the velocity along x, z. */
 enum {
 	PONG_STATE_POSITION = 0,
 	PONG_STATE_VELOCITY = 3,
@@ -481,19 +486,20 @@ enum {
 	PONG_STATE_RESTITUTION = 11,
 	PONG_STATE_FRICTION = 12,
 	PONG_STATE_GRIP = 13,
-	PONG_STATE_KICK_X = 14,
-	PONG_STATE_KICK_Z = 15,
-	PONG_STATE_SIZE = 16
+	PONG_STATE_HEIGHT = 14,
+	PONG_STATE_KICK_X = 15,
+	PONG_STATE_KICK_Z = 16,
+	PONG_STATE_SIZE = 17
 };
 
 /* The ball at one moment. */
 typedef struct pong_state {
 	int64_t utime;
-	double position[3];     /* m */
-	double velocity[3];     /* m/s */
-	int has_spin;           /* whether what follows is known: not from the paper's method */
-	double spin[3];         /* rad/s */
-	double coefficients[7]; /* PONG_STATE_DRAG to PONG_STATE_KICK_Z */
+	double position[3]; /* m */
+	double velocity[3]; /* m/s */
+	int has_spin;       /* whether what follows is known: not from the paper's method */
+	double spin[3];     /* rad/s */
+	double coefficients[PONG_STATE_SIZE - PONG_STATE_DRAG]; /* PONG_STATE_DRAG to PONG_STATE_KICK_Z */
 	double covariance[PONG_STATE_SIZE][PONG_STATE_SIZE];
 } pong_state;
 
@@ -618,6 +624,28 @@ PONG_API void pong_eye_free(pong_eye *eye);
  * Returns PONG_FOUND with a ball, PONG_NONE without, PONG_ERROR_VALUE if a picture has not its camera's size. */
 PONG_API int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 			   pong_sight *sight, pong_error *error);
+
+/* The same in steps, for those who have a thread for each camera:
+ *
+ *     pong_eye_expect(eye, utime)                         first, in one thread
+ *     pong_eye_look(eye, PONG_LEFT, &left, &error)        both at the same time, each in its own thread,
+ *     pong_eye_look(eye, PONG_RIGHT, &right, &error)      or one after the other
+ *     pong_eye_join(eye, frame, &sight)                   when both have returned
+ *
+ * What comes of it is that of pong_eye_push, to the bit. Whoever uses threads makes the earlier step's writes seen by
+ * the later one, as any mutex or condition variable does. */
+
+/* Begin with the pair exposed at `utime`: work out where its ball must be. That can be done before the pictures are
+ * there. Returns PONG_FOUND, or PONG_NONE where the pair is not later than the one before: drop it then. */
+PONG_API int pong_eye_expect(pong_eye *eye, int64_t utime);
+
+/* Look at one camera's picture of the pair; it is copied. Returns how many places look like a ball, or
+ * PONG_ERROR_VALUE if the picture has not its camera's size. */
+PONG_API int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error);
+
+/* End the pair, both pictures of which were looked at. *sight is always filled. Returns PONG_FOUND with a ball,
+ * PONG_NONE without. */
+PONG_API int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight);
 
 #ifdef __cplusplus
 }

@@ -44,7 +44,7 @@ pong_ball_spec usual_ball()
 	return ball;
 }
 
-const pong_table usual_table = {1, 2.74, 1.525, 0.1525};
+const pong_table usual_table = {1, 2.74, 1.525, 0.1525, 0, 0.002};
 
 void read_number(const Document &document, const char *section, const char *key, double min, double max, double *value)
 {
@@ -73,6 +73,21 @@ const Coefficient coefficients[] = {
 	{"grip", &pong_ball_spec::grip, -1, 1},
 	{"grip_sigma", &pong_ball_spec::grip_sigma, 0, 1},
 	{"kick", &pong_ball_spec::kick, 0, 10},
+};
+
+// A length of the table, likewise, m.
+struct Length {
+	const char *key;
+	double pong_table::*value;
+	double min, max;
+};
+
+const Length table_lengths[] = {
+	{"length", &pong_table::length, 0.1, 100},
+	{"width", &pong_table::width, 0.1, 100},
+	{"net", &pong_table::net, 0, 10},
+	{"height", &pong_table::height, -1, 1},
+	{"height_sigma", &pong_table::height_sigma, 0, 1},
 };
 
 pong_ball_spec read_ball(const Document &document)
@@ -109,12 +124,11 @@ pong_ball_spec read_ball(const Document &document)
 pong_table read_table(const Document &document)
 {
 	if (!document.has_section("table"))
-		return {0, 0, 0, 0};
+		return {};
 	pong_table table = usual_table;
-	document.allow_only("table", {"length", "width", "net"});
-	read_number(document, "table", "length", 0.1, 100, &table.length);
-	read_number(document, "table", "width", 0.1, 100, &table.width);
-	read_number(document, "table", "net", 0, 10, &table.net);
+	document.allow_only("table", {"length", "width", "net", "height", "height_sigma"});
+	for (const Length &length : table_lengths)
+		read_number(document, "table", length.key, length.min, length.max, &(table.*length.value));
 	return table;
 }
 
@@ -198,13 +212,18 @@ std::string list(const double *values, int count, int per_line)
 	return text + "]";
 }
 
+// As a TOML text: quotes and backslashes are escaped, and so are control characters, which it may not hold.
 std::string quoted(const std::string &text)
 {
 	std::string result = "\"";
 	for (const char letter : text) {
-		if (letter == '"' || letter == '\\')
-			result += '\\';
-		result += letter;
+		const auto code = static_cast<unsigned char>(letter);
+		if (code < ' ' || code == 0x7f)
+			result += sentence("\\u%04x", code);
+		else if (letter == '"' || letter == '\\')
+			result += std::string("\\") + letter;
+		else
+			result += letter;
 	}
 	return result + "\"";
 }
@@ -225,8 +244,10 @@ std::string write_rig(const pong_rig &rig)
 		text += std::string(coefficient.key) + " = " + digits(rig.ball.*coefficient.value) + "\n";
 	text += "spin_sigma = " + list(rig.ball.spin_sigma, 3, 3) + "\n";
 	if (rig.table.present)
-		text += "\n[table]\nlength = " + digits(rig.table.length) + "\nwidth = " + digits(rig.table.width) +
-			"\nnet = " + digits(rig.table.net) + "\n";
+		text += "\n[table]\n";
+	for (const Length &length : table_lengths)
+		if (rig.table.present)
+			text += std::string(length.key) + " = " + digits(rig.table.*length.value) + "\n";
 	return text + "\n[hit]\nz = " + digits(rig.hit_z) + "\n" + write_camera(rig.camera[PONG_LEFT], "left") +
 	       write_camera(rig.camera[PONG_RIGHT], "right");
 }

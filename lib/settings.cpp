@@ -100,6 +100,14 @@ void read_settings(const Document &document, pong_settings &settings)
 			static_cast<pong_predict_method>(read_word(document, "predict", "method", {"euler", "spin"}));
 }
 
+// All that the document says, or nothing.
+void change_settings(const Document &document, pong_settings *settings)
+{
+	pong_settings changed = *settings;
+	read_settings(document, changed);
+	*settings = changed;
+}
+
 } // namespace
 
 } // namespace pong
@@ -114,7 +122,7 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->region.distance[1] = 12;
 	settings->detect.method = profile == PONG_PAPER ? PONG_DETECT_DIFFERENCE : PONG_DETECT_DOUBLE_DIFFERENCE;
 	settings->detect.gap = 8;
-	settings->detect.contrast = 8;
+	settings->detect.contrast = profile == PONG_PAPER ? 8 : 3;
 	settings->locate.method = profile == PONG_PAPER ? PONG_LOCATE_GAUSSIAN : PONG_LOCATE_PHOTOMETRIC;
 	settings->locate.sigma = 0.3;
 	settings->reconstruct.method = profile == PONG_PAPER ? PONG_RECONSTRUCT_LINEAR : PONG_RECONSTRUCT_LIKELY;
@@ -135,12 +143,18 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->window.diameters = 1;
 }
 
+int pong_settings_parse(const char *text, const char *name, pong_settings *settings, pong_error *error)
+{
+	return pong::guarded(error, [&] {
+		pong::change_settings(pong::Document(text, name), settings);
+		return PONG_FOUND;
+	});
+}
+
 int pong_settings_load(const char *path, pong_settings *settings, pong_error *error)
 {
 	return pong::guarded(error, [&] {
-		pong_settings changed = *settings;
-		pong::read_settings(pong::Document(pong::read_file(path), path), changed);
-		*settings = changed;
+		pong::change_settings(pong::Document(pong::read_file(path), path), settings);
 		return PONG_FOUND;
 	});
 }

@@ -9,6 +9,7 @@
 #include "error.hpp"
 #include "estimate.hpp"
 #include "halves.hpp"
+#include "track.hpp"
 
 namespace pong
 {
@@ -17,7 +18,9 @@ namespace
 {
 
 const int confirmed = 3;             // points that make a second flight believed
+const int likely_confirmed = 2;      // and a first one amid what else moves
 const double gone = 0.1;             // a flight not seen for so long needs no such proof against it, s
+const double gone_certain = 0.03;    // the same where the point is certainly a ball
 const double expected_sigma = 0.015; // what no covariance knows of where a ball is expected, m
 const double surprise = 25;          // squared normalised distance of a point that is not the expected ball
 
@@ -148,25 +151,44 @@ bool flies_to_robot(const Run &run)
 // Two balls are seen where the flight has had points since the other began. The paper knows one ball only: the newest.
 bool prefer_flight(const pong_track &track)
 {
-	return track.settings.track.state == PONG_STATE_FLIGHT && track.flight->last().utime > track.other->first() &&
+	return track.settings.track.state == PONG_STATE_FLIGHT && track.flight->count() > 0 &&
+	       track.flight->last().utime > track.other->first() &&
 	       (flies_to_robot(*track.flight) || !flies_to_robot(*track.other));
 }
 
-pong_track_event push_other(pong_track &track, const pong_point &point)
+// How many points make a second flight believed, this one included.
+int points_needed(const pong_track &track, const pong_point &point, Trust trust)
+{
+	const bool has_flight = track.flight->count() > 0;
+	const double unseen = has_flight ? seconds(track.flight->last().utime, point.utime) : INFINITY;
+	const bool is_gone = unseen > (trust == Trust::certain ? gone_certain : gone);
+	if (trust == Trust::likely)
+		return is_gone ? likely_confirmed : confirmed;
+	return is_gone ? 1 : confirmed;
+}
+
+pong_track_event push_other(pong_track &track, const pong_point &point, Trust trust)
 {
 	Run &other = *track.other;
-	if (other.count() > 0 && point.utime <= other.last().utime)
+	if (trust == Trust::none || (other.count() > 0 && point.utime <= other.last().utime))
 		return PONG_TRACK_REJECTED;
 	if (other.count() > 0 && !fits(track, other, point))
 		other.clear();
 	other.add(point, track.rig);
-	const bool unseen = seconds(track.flight->last().utime, point.utime) > gone;
-	if (other.count() < (unseen ? 1 : confirmed) || prefer_flight(track))
+	if (other.count() < points_needed(track, point, trust) || prefer_flight(track))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();
 	track.id = ++track.flights;
 	return PONG_TRACK_BEGUN;
+}
+
+// What may be something else is only believed where the ball has just been.
+bool continues(const pong_track &track, const pong_point &point, Trust trust)
+{
+	const Run &flight = *track.flight;
+	return flight.count() > 0 && (trust != Trust::none || seconds(flight.last().utime, point.utime) < gone) &&
+	       fits(track, flight, point);
 }
 
 bool usable(const pong_point &point)
@@ -175,6 +197,19 @@ bool usable(const pong_point &point)
 }
 
 } // namespace
+
+pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust)
+{
+	if (!usable(point))
+		return PONG_TRACK_REJECTED;
+	pong_track_miss(&track, point.utime);
+	if (track.flight->count() > 0 && point.utime <= track.flight->last().utime)
+		return PONG_TRACK_REJECTED;
+	if (!continues(track, point, trust))
+		return push_other(track, point, trust);
+	track.flight->add(point, track.rig);
+	return PONG_TRACK_FOLLOWED;
+}
 
 } // namespace pong
 
@@ -196,20 +231,7 @@ void pong_track_free(pong_track *track)
 
 pong_track_event pong_track_push(pong_track *track, const pong_point *point)
 {
-	if (!usable(*point))
-		return PONG_TRACK_REJECTED;
-	pong_track_miss(track, point->utime);
-	if (track->flight->count() == 0) {
-		track->flight->add(*point, track->rig);
-		track->id = ++track->flights;
-		return PONG_TRACK_BEGUN;
-	}
-	if (point->utime <= track->flight->last().utime)
-		return PONG_TRACK_REJECTED;
-	if (!fits(*track, *track->flight, *point))
-		return push_other(*track, *point);
-	track->flight->add(*point, track->rig);
-	return PONG_TRACK_FOLLOWED;
+	return push_point(*track, *point, Trust::usual);
 }
 
 void pong_track_miss(pong_track *track, int64_t utime)

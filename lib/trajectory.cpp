@@ -28,21 +28,21 @@ void Trajectory::advance(double latest)
 	begin_ = end_;
 	if (ends_on_table_) {
 		physics_.bounce(parameters_, begin_);
-		begin_.position.y() = physics_.radius();
+		begin_.position.y() = physics_.contact_height(parameters_);
 		bounces_++;
 	}
 	ends_on_table_ = false;
 	end_ = begin_;
 	const double duration = std::min(physics_.step_length(parameters_, begin_), latest - begin_.time);
 	physics_.step(parameters_, duration, end_);
-	const double radius = physics_.radius();
-	if (table_.present && begin_.position.y() >= radius && end_.position.y() < radius && bounces_ < bounces_most)
+	const double contact = physics_.contact_height(parameters_);
+	if (table_.present && begin_.position.y() >= contact && end_.position.y() < contact && bounces_ < bounces_most)
 		end_at_contact();
 }
 
 void Trajectory::end_at_contact()
 {
-	const double time = time_at(1, physics_.radius());
+	const double time = time_at(1, physics_.contact_height(parameters_));
 	if (!over_table(position(time)))
 		return;
 	const Motion contact = motion(time);

@@ -7,7 +7,7 @@
 namespace
 {
 
-const double size_uncertainty = 1.4; // the ball is at most this factor larger or smaller than expected
+const double size_uncertainty = 1.15; // the ball is at most this factor larger or smaller than expected
 
 }
 

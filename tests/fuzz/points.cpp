@@ -1,10 +1,4 @@
 // Any bytes into pongeye-predict's reader, and what it makes of them into a track.
-//
-//     clang++ -g -O1 -std=c++17 -fsanitize=fuzzer,address,undefined -Ilib -Itools -Itools/common tests/fuzz/points.cpp
-//     \
-//         tools/predict/points.cpp tools/predict/follow.cpp tools/common/program.cpp build/lib/libpongeye.a -o
-//         fuzz-points
-//     ./fuzz-points -max_total_time=60
 #include <cstdint>
 #include <sstream>
 

@@ -1,7 +1,8 @@
 // An LCM subscriber that knows nothing of the tracker but its message types: counts what it hears for some seconds,
-// looks at every value, and prints `name count` lines.
+// or until SIGTERM, looks at every value, and prints `name count` lines.
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
@@ -65,6 +66,8 @@ public:
 
 } // namespace
 
+volatile std::sig_atomic_t stop = 0;
+
 int main(int argc, char **argv)
 {
 	const double seconds = argc > 1 ? atof(argv[1]) : 5;
@@ -76,7 +79,8 @@ int main(int argc, char **argv)
 	lcm.subscribe("PONGEYE_PREDICTION", &Listener::on_prediction, &listener);
 	lcm.subscribe("PONGEYE_STATUS", &Listener::on_status, &listener);
 	const int64_t end = now_utime() + static_cast<int64_t>(seconds * 1e6);
-	while (now_utime() < end)
+	std::signal(SIGTERM, [](int) { stop = 1; });
+	while (!stop && now_utime() < end)
 		lcm.handleTimeout(100);
 	printf("balls %d\npredictions %d\nstatuses %d\ninsane %d\n", listener.heard.balls, listener.heard.predictions,
 	       listener.heard.statuses, listener.heard.insane);

@@ -20,6 +20,9 @@ check() {
 	fi
 }
 
+# value, bound: for check; what is no number is above every bound.
+at_most() { awk -v value="$1" -v bound="$2" 'BEGIN { exit !(value + 0 == value && value <= bound) }'; }
+
 # what, status, words, command ...: the command must end so, and say one line that holds the words.
 check_refusal() {
 	local what=$1 status=$2 words=$3 got

@@ -8,11 +8,13 @@ check "the cameras serve Aravis" "$BUILD/tests/gige_aravis"
 
 "$bin/pongeye-simulate" --cameras --rig "$work/rig.toml" --truth "$work/truth.txt" --seed 5 2>"$work/simulate.log" &
 simulator=$!
-for _ in $(seq 100); do [ -s "$work/rig.toml" ] && break; sleep 0.1; done
-"$BUILD/tests/lcm_listener" 9 >"$work/heard" &
+while kill -0 $simulator 2>/dev/null && ! grep -q 'cameras on' "$work/simulate.log"; do sleep 0.1; done
+"$BUILD/tests/lcm_listener" 100 >"$work/heard" &
 listener=$!
 "$bin/pongeye-track" --rig "$work/rig.toml" --output "$work/track.txt" --seconds 7 2>"$work/track.log"
 check "the tracker ends well" test $? -eq 0
+sleep 0.5 # for the last messages to be read
+kill -TERM $listener
 wait $listener
 kill -INT $simulator
 wait $simulator

@@ -45,6 +45,12 @@ check "a blank line parts flights" bash -c "$predict <blank.txt | awk '\$3 == 1'
 $predict --fit flights.txt >fitted.toml
 check "--fit writes coefficients" grep -q '^restitution_sigma = ' fitted.toml
 check "which can be read back" $predict --rig fitted.toml <flights.txt
+$predict --rig fitted.toml <flights.txt >out.txt
+check "with the table: balls still bounce" test "$(last bounce_t)" != -
+echo '[track]
+noise = 0.5' >>fitted.toml
+$predict --rig fitted.toml <flights.txt >doubtful.txt
+check "the rig's settings count" test "$(tail -1 doubtful.txt)" != "$(tail -1 out.txt)"
 
 printf '# t x y z\n0 0 .3 2.7\n.01 0 .3 2.6\n.01 0 .3 2.6\nnan 1 1 1\n.02 0 .3 2.5\n' | $predict >out.txt 2>skipped.txt
 check "skips are counted" grep -q '2 rows were skipped' skipped.txt

@@ -28,7 +28,8 @@ check_refusal "no rig.toml" 1 'nowhere.toml: No such file' "$track" --rig nowher
 check_refusal "a malformed rig.toml, with line and column" 1 'malformed.toml:2:' "$track" --rig malformed.toml
 check_refusal "a misspelt key" 1 "misspelt.toml:8:1: unknown key 'exposre'" "$track" --rig misspelt.toml --lcm-url memq://
 check_refusal "no camera in rig.toml" 1 'names no left camera' "$track" --rig rig.toml --lcm-url memq://
-check_refusal "a camera that is not there" 1 'left camera 127.9.9.9: not found' "$track" --rig absent.toml --lcm-url memq://
+"$track" --rig absent.toml --lcm-url memq:// --seconds 1 2>absent.log
+check "a camera that is not there is waited for, which is said" bash -c "[ $? -eq 0 ] && grep -q 'left camera 127.9.9.9: not found' absent.log"
 check_refusal "no folder" 1 'nowhere: No such file' "$track" --rig rig.toml --images nowhere
 check_refusal "an empty folder" 1 'empty: no pictures' "$track" --rig rig.toml --images empty
 check_refusal "pictures of another size" 1 'the left picture is 640 x 480, its camera in the rig 320 x 240' \

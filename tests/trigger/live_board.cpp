@@ -156,7 +156,7 @@ int on_tick(gpointer pacer)
 	return G_SOURCE_CONTINUE;
 }
 
-int run(int argc, char **argv)
+[[noreturn]] void run(int argc, char **argv)
 {
 	UMockdevTestbed *testbed = umockdev_testbed_new();
 	if (argc < 4 || !umockdev_in_mock_environment())
@@ -175,7 +175,10 @@ int run(int argc, char **argv)
 	fputs(outcome.err.c_str(), stderr);
 	printf("status %d\nedges %d\nmost_behind_ms %.1f\n", outcome.status, pacer.edges(), pacer.most_behind() * 1e3);
 	g_object_unref(testbed);
-	return outcome.status == 0 ? 0 : 1;
+	fflush(nullptr);
+	// umockdev's thread may still answer a request of the program that has just ended: nothing that it uses may go
+	// before the process does.
+	_exit(outcome.status == 0 ? 0 : 1);
 }
 
 } // namespace
@@ -183,7 +186,7 @@ int run(int argc, char **argv)
 int main(int argc, char **argv)
 {
 	try {
-		return run(argc, argv);
+		run(argc, argv);
 	} catch (const std::exception &error) {
 		fprintf(stderr, "live_board: %s\n", error.what());
 		return 1;

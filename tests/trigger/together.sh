@@ -28,19 +28,27 @@ wait $simulator
 check "the simulator ends well" test $? -eq 0
 sed 's/^/# /' "$work/board" "$work/trigger.log" "$work/simulate.log" "$work/track.log" "$work/heard"
 
-# Rows of both tables side by side: a pair, and the pulse whose exposure's middle was nearest to it.
+# Rows of both tables side by side: a pair, and the pulse whose exposure's middle was nearest to it; and the true centres
+# of the pulses before and after.
 awk '
 	FNR == 1 { file++ }
-	file == 1 && !/^#/ { n++; time[n] = $1; row[n] = $0 }
+	file == 1 && !/^#/ { n++; time[n] = $1; row[n] = $0; centres[n] = $13 " " $14 " " $15 " " $16 }
 	file == 2 && !/^#/ {
 		if (!i) i = 1
 		while (i < n && (time[i + 1] - $1) ^ 2 < (time[i] - $1) ^ 2) i++
-		print $1 - time[i], $0, row[i]
+		print $1 - time[i], $0, row[i], (i > 1 ? centres[i - 1] : "- - - -"), (i < n ? centres[i + 1] : "- - - -")
 	}' "$work/truth.txt" "$work/track.txt" >"$work/joined"
 # The first pairs may come before the first word of a pulse, and are counted then: `unheard`, for half a second at most.
 # In a joined row: the times differ by $1; the tracker's frame is $3, its centres $4 to $7, its position $8 $9 $10; the
-# truth begins after its 23 columns, with utime $25, frame $26, position $28 $29 $30, centres $37 to $40.
+# truth begins after its 23 columns, with utime $25, frame $26, position $28 $29 $30, centres $37 to $40, and whether the
+# ball is wholly in each picture, $41 $42; then come the centres of the pulse before, $47 to $50, and after, $51 to $54.
+#
+# A picture of another pulse shows the ball nearer to where it was then; a ball that comes straight at the camera moves by
+# as little as 0.4 px a pulse, so only what is more than 1.5 px off is judged. It can be told of balls wholly in the picture;
+# of one that its border cuts the visible part is located, which may be 12 px away. Where such a ball is published is
+# judged by `far`, like all others.
 awk -v pulses=$pulses -v every=$every '
+	function apart(a, b) { return $b == "-" ? 1e9 : ($a - $b) ^ 2 + ($(a + 1) - $(b + 1)) ^ 2 }
 	{
 		pairs++
 		late = $1 < 0 ? -$1 : $1
@@ -54,7 +62,13 @@ awk -v pulses=$pulses -v every=$every '
 		if ($8 == "-") next
 		balls++
 		if ($28 == "-") { far++; next }
-		for (k = 0; k < 4; k++) if (($(4 + k) - $(37 + k)) ^ 2 > 3 ^ 2) { wrong_pair++; break }
+		for (side = 0; side < 2; side++) {
+			if (!$(41 + side)) { cut++; continue }
+			compared++
+			own = apart(4 + 2 * side, 37 + 2 * side)
+			if (own <= 1.5 ^ 2) continue
+			if (own > apart(4 + 2 * side, 47 + 2 * side) || own > apart(4 + 2 * side, 51 + 2 * side)) wrong_pair++
+		}
 		across = sqrt(($8 - $28) ^ 2 + ($9 - $29) ^ 2)
 		# Depth: its own standard deviation is in $16.
 		depth = ($10 - $30) ^ 2
@@ -63,7 +77,7 @@ awk -v pulses=$pulses -v every=$every '
 	END {
 		printf "pairs %d\nunheard %d\nballs %d\nwrong_number %d\nbackwards %d\nimpossible %d\nwrong_pair %d\nfar %d\n",
 			pairs, unheard, balls, wrong_number, backwards, impossible, wrong_pair, far
-		printf "injected %d\nabsent %d\nlatest_us %d\n", injected, absent, latest
+		printf "injected %d\nabsent %d\nlatest_us %d\ncompared %d\ncut %d\n", injected, absent, latest, compared, cut
 	}' "$work/joined" >"$work/found"
 sed 's/^/# /' "$work/found"
 found() { sed -n "s/^$1 //p" "$work/found"; }
@@ -77,7 +91,8 @@ lost=$(sed -n 's/.* \([0-9]*\) incomplete, \([0-9]*\) too late.*/\1 + \2/p' "$wo
 check "pairs arrive ($(found pairs)), and balls ($(found balls))" test "$(found pairs)" -gt 300 -a "$(found balls)" -gt 50
 check "every frame is numbered by its pulse" test "$(found wrong_number)" -eq 0 -a "$(found backwards)" -eq 0
 check "no pair of a pulse that a camera missed" test "$(found impossible)" -eq 0
-check "no wrong pair: both centres are those of the pulse" test "$(found wrong_pair)" -eq 0
+check "no wrong pair: each centre is nearest to its own pulse's ($(found compared) compared)" \
+	test "$(found wrong_pair)" -eq 0 -a "$(found compared)" -gt 0
 check "no ball is published where none is" test "$(found far)" -eq 0
 check "the right camera missed as told ($(told right))" test "$(told right)" -gt 20 -a "$(told left)" -eq 0
 check "missed triggers are found: right $right, of which told $(found injected)" test "$right" -ge "$(found injected)" \

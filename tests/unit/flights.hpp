@@ -38,6 +38,7 @@ inline pong_rig rig_of_simulator()
 	rig.ball.drag_sigma = 0.005;
 	rig.ball.magnus_sigma = 1e-8;
 	rig.ball.restitution_sigma = rig.ball.friction_sigma = rig.ball.grip_sigma = rig.ball.kick = 1e-3;
+	rig.table.height_sigma = 1e-3;
 	return rig;
 }
 

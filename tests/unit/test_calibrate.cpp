@@ -41,20 +41,6 @@ Session session_of_32(double placement, double tilt)
 	return session;
 }
 
-double expected_rms(const pong_calibration &calibration)
-{
-	double squares = 0;
-	int count = 0;
-	for (const auto &position : pong::table_volume()) {
-		double covariance[3][3];
-		if (pong_calibration_error(&calibration, position.data(), covariance) != PONG_FOUND)
-			continue;
-		squares += covariance[0][0] + covariance[1][1] + covariance[2][2];
-		count++;
-	}
-	return std::sqrt(squares / count);
-}
-
 struct Outcome {
 	double mean, actual, expected; // m: mean error, its rms, the rms that was expected
 };
@@ -70,7 +56,7 @@ Outcome run(const Session &session, double k1, int seeds)
 		const pong::VolumeError error = volume_error(rig, calibration.camera, pong::table_volume());
 		outcome.mean += error.mean / seeds;
 		outcome.actual += error.rms * error.rms / seeds;
-		outcome.expected += std::pow(expected_rms(calibration), 2) / seeds;
+		outcome.expected += std::pow(pong::expected_error(calibration, pong::table_volume()), 2) / seeds;
 	}
 	outcome.actual = std::sqrt(outcome.actual);
 	outcome.expected = std::sqrt(outcome.expected);
@@ -160,8 +146,7 @@ TEST(Calibrate, TakesTheFrameFromPointsOfUncertainPlaces)
 	const double stated[4][3] = {{0.3, 0, 0.9}, {-0.3, 0, 0.9}, {-0.7, 0, 2.74}, {0.7, 0, 2.74}};
 	pong_view view = {};
 	view.placed = 1;
-	for (int i = 0; i < 3; i++)
-		view.pose[i][i] = 1;
+	view.pose[0][0] = view.pose[1][2] = view.pose[2][1] = -1; // as a board that lies on the table
 	view.sigma_shape = 1;
 	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 		for (int point = 0; point < 4; point++) {
@@ -173,7 +158,7 @@ TEST(Calibrate, TakesTheFrameFromPointsOfUncertainPlaces)
 			recording.corners.push_back({static_cast<int>(recording.views.size()),
 						     side,
 						     point,
-						     {p[0], p[1], p[2]},
+						     {-p[0], -p[2], 0},
 						     {pixel.x(), pixel.y()},
 						     1});
 		}
@@ -201,8 +186,10 @@ TEST(Calibrate, OneMoreBoardMakesItMoreCertain)
 		if (corner.view == 4)
 			corners.push_back(corner);
 	pong_calibration_expect(&before, pose, corners.data(), static_cast<int>(corners.size()), &after);
-	EXPECT_LT(expected_rms(after), expected_rms(before));
-	EXPECT_GT(expected_rms(after), 0.5 * expected_rms(before));
+	EXPECT_LT(pong::expected_error(after, pong::table_volume()),
+		  pong::expected_error(before, pong::table_volume()));
+	EXPECT_GT(pong::expected_error(after, pong::table_volume()),
+		  0.5 * pong::expected_error(before, pong::table_volume()));
 }
 
 TEST(Calibrate, SaysWhyItCannot)

@@ -77,6 +77,26 @@ TEST(Estimate, FindsTheSpinAfterTheBounce)
 	}
 }
 
+// Calibration that is wrong by some millimetres puts the table's surface there: the bounce tells.
+TEST(Estimate, FindsTheTableWhereTheCamerasSeeIt)
+{
+	const sim::Flight flight = fly(usual_serve());
+	auto points = points_of(flight, 0, 0.6, 110, 0.001);
+	for (pong_point &point : points)
+		point.position[1] -= 0.004;
+	pong_rig rig = rig_of_simulator();
+	rig.ball.restitution_sigma = 0.03;
+	rig.table.height_sigma = 0.003;
+	const pong_state state = estimate(rig, points);
+	const double sigma = std::sqrt(state.covariance[PONG_STATE_HEIGHT][PONG_STATE_HEIGHT]);
+	EXPECT_LT(sigma, 0.001);
+	EXPECT_NEAR(state.coefficients[PONG_STATE_HEIGHT - PONG_STATE_DRAG], -0.004, 3 * sigma);
+	const double truth = flight.at(static_cast<double>(state.utime - 1000000) * 1e-6).velocity.y();
+	EXPECT_NEAR(state.velocity[1], truth, 3 * std::sqrt(state.covariance[4][4]));
+	rig.table.height_sigma = 0;
+	EXPECT_GT(std::abs(estimate(rig, points).velocity[1] - truth), 2 * std::abs(state.velocity[1] - truth));
+}
+
 TEST(Estimate, AnOutlierCountsLittle)
 {
 	const pong_rig rig = rig_of_simulator();

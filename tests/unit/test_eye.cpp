@@ -1,15 +1,18 @@
 // The stages joined: flights drawn by the test, pushed pair by pair.
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <memory>
 #include <new>
+#include <thread>
 
 #include "pictures.hpp"
 #include "rigs.hpp"
 
 // Every allocation is counted, so that a test can show that the steady loop makes none.
-static long allocations;
+static std::atomic<long> allocations;
 
 void *operator new(size_t size)
 {
@@ -73,9 +76,11 @@ public:
 			pictures[side].add_noise(1.2, static_cast<unsigned>(2 * frame_ + side));
 		}
 		const pong_image left = pictures[0].image(), right = pictures[1].image();
+		const int64_t utime = std::llround(frame_ * 1e6 / fps);
 		const long before = allocations;
-		const int code = pong_eye_push(eye_.get(), std::llround(frame_ * 1e6 / fps), frame_, &left, &right,
-					       &sight, &error);
+		const int code = in_two_threads
+					 ? push_in_two_threads(utime, left, right)
+					 : pong_eye_push(eye_.get(), utime, frame_, &left, &right, &sight, &error);
 		allocated += allocations - before;
 		return code;
 	}
@@ -106,8 +111,18 @@ public:
 	pong_sight sight = {};
 	pong_error error = {};
 	long allocated = 0;
+	bool in_two_threads = false;
 
 private:
+	int push_in_two_threads(int64_t utime, const pong_image &left, const pong_image &right)
+	{
+		EXPECT_EQ(pong_eye_expect(eye_.get(), utime), PONG_FOUND);
+		std::thread other([this, &left] { pong_eye_look(eye_.get(), PONG_LEFT, &left, nullptr); });
+		pong_eye_look(eye_.get(), PONG_RIGHT, &right, nullptr);
+		other.join();
+		return pong_eye_join(eye_.get(), frame_, &sight);
+	}
+
 	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1.6, -6};
 	pong_rig rig_;
 	std::unique_ptr<pong_eye, Freed> eye_;
@@ -198,6 +213,44 @@ TEST_P(Eye, AllocatesNothingInTheSteadyLoop)
 		scene.push(true);
 	EXPECT_TRUE(scene.sight.has_prediction);
 	EXPECT_EQ(scene.allocated, 0);
+}
+
+void expect_same(const pong_sight &one, const pong_sight &other)
+{
+	EXPECT_EQ(one.outcome, other.outcome);
+	EXPECT_EQ(one.windowed, other.windowed);
+	EXPECT_EQ(one.detections[0], other.detections[0]);
+	EXPECT_EQ(one.detections[1], other.detections[1]);
+	EXPECT_EQ(one.observations, other.observations);
+	EXPECT_EQ(memcmp(one.ball.position, other.ball.position, sizeof one.ball.position), 0);
+	EXPECT_EQ(memcmp(one.ball.covariance, other.ball.covariance, sizeof one.ball.covariance), 0);
+	EXPECT_EQ(memcmp(&one.ball.centre, &other.ball.centre, sizeof one.ball.centre), 0);
+	ASSERT_EQ(one.has_prediction, other.has_prediction);
+	if (one.has_prediction) {
+		EXPECT_EQ(one.prediction.hit.utime, other.prediction.hit.utime);
+		EXPECT_EQ(memcmp(one.prediction.hit.position, other.prediction.hit.position, sizeof(double[3])), 0);
+	}
+}
+
+TEST_P(Eye, LooksInTwoThreadsToTheSameBits)
+{
+	Scene one(GetParam()), other(GetParam());
+	other.in_two_threads = true;
+	int balls = 0;
+	for (int i = 0; i < 30; i++) {
+		const bool ball = i >= 3 && i != 20; // once it is not where it was expected
+		EXPECT_EQ(one.push(ball), other.push(ball));
+		expect_same(one.sight, other.sight);
+		balls += one.sight.has_ball;
+	}
+	EXPECT_GT(balls, 20);
+}
+
+TEST_P(Eye, ExpectsOnlyLaterPairs)
+{
+	Scene scene(GetParam());
+	EXPECT_EQ(pong_eye_expect(scene.eye(), 5), PONG_FOUND);
+	EXPECT_EQ(pong_eye_expect(scene.eye(), 5), PONG_NONE);
 }
 
 TEST_P(Eye, DropsPairsThatAreNotLater)

@@ -15,7 +15,7 @@ Parameters serve_parameters(const pong_rig &rig, const Eigen::Vector3d &spin)
 	const sim::Ball serve = usual_serve();
 	Parameters parameters;
 	parameters << serve.position, serve.velocity, spin, ball.drag, ball.magnus, ball.restitution, ball.friction,
-		ball.grip, 0.02, -0.03;
+		ball.grip, 0.002, 0.02, -0.03;
 	return parameters;
 }
 
@@ -68,7 +68,7 @@ TEST(Physics, LongStepsAreAsGoodAsTheSimulatorsTinyOnes)
 		sim::Ball ball = usual_serve();
 		ball.spin *= scale;
 		Parameters parameters = serve_parameters(rig, ball.spin);
-		parameters.tail<2>().setZero();
+		parameters.tail<3>().setZero();
 		const sim::Flight flight = fly(ball);
 		for (double time = 0.05; time < flight.hit()->time; time += 0.05) {
 			const Vector3 position = motion_after(rig, parameters, time).position;
@@ -82,7 +82,7 @@ TEST(Physics, ABallPastTheEdgeDoesNotBounce)
 	pong_rig rig = rig_of_simulator();
 	Parameters parameters = serve_parameters(rig, {0, 0, 0});
 	parameters[0] = 1.0;
-	parameters.tail<2>().setZero();
+	parameters.tail<3>().setZero();
 	EXPECT_LT(motion_after(rig, parameters, 0.6).position.y(), 0);
 }
 

@@ -17,9 +17,15 @@ pong_state state_of(const sim::Ball &ball, const pong_rig &rig)
 	std::copy_n(ball.velocity.data(), 3, state.velocity);
 	std::copy_n(ball.spin.data(), 3, state.spin);
 	state.has_spin = 1;
-	const double coefficients[] = {
-		rig.ball.drag, rig.ball.magnus, rig.ball.restitution, rig.ball.friction, rig.ball.grip, 0, 0};
-	std::copy_n(coefficients, 7, state.coefficients);
+	const double coefficients[] = {rig.ball.drag,
+				       rig.ball.magnus,
+				       rig.ball.restitution,
+				       rig.ball.friction,
+				       rig.ball.grip,
+				       rig.table.height,
+				       0,
+				       0};
+	std::copy(std::begin(coefficients), std::end(coefficients), state.coefficients);
 	return state;
 }
 

@@ -153,6 +153,38 @@ TEST(Settings, AreReadFromTheSameFile)
 	EXPECT_EQ(error.text, path + ":3:10: detect.method must be one of difference, double-difference");
 }
 
+TEST(Rig, AnyCameraNameIsWrittenAndReadAgain)
+{
+	pong_rig rig = test_rig(), again;
+	pong_error error = {};
+	char text[8192];
+	strcpy(rig.camera[PONG_LEFT].id, "a\"b\\c\n\t\x7f\xc3\xa9");
+	ASSERT_LT(pong_rig_format(&rig, text, sizeof text), static_cast<int>(sizeof text));
+	ASSERT_EQ(pong_rig_parse(text, "text", &again, &error), PONG_FOUND) << error.text;
+	EXPECT_STREQ(again.camera[PONG_LEFT].id, rig.camera[PONG_LEFT].id);
+}
+
+// toml++ would end the program.
+TEST(Rig, ATableWithoutANameIsRefused)
+{
+	pong_rig rig;
+	pong_error error = {};
+	EXPECT_EQ(pong_rig_parse("[= 4\n", "text", &rig, &error), PONG_ERROR_FORMAT);
+	EXPECT_EQ(std::string(error.text).find("text:1:2: "), 0u) << error.text;
+}
+
+TEST(Settings, AreReadFromText)
+{
+	pong_settings settings;
+	pong_error error = {};
+	pong_settings_defaults(PONG_BEST, &settings);
+	ASSERT_EQ(pong_settings_parse("[detect]\ngap = 3\n", "text", &settings, &error), PONG_FOUND) << error.text;
+	EXPECT_EQ(settings.detect.gap, 3);
+	EXPECT_EQ(pong_settings_parse("[detect]\ngap = 5\nmethod = 1\n", "text", &settings, &error), PONG_ERROR_FORMAT);
+	EXPECT_STREQ(error.text, "text:3:10: detect.method needs a text in quotes");
+	EXPECT_EQ(settings.detect.gap, 3);
+}
+
 TEST(Settings, ProfilesDiffer)
 {
 	pong_settings paper, best;

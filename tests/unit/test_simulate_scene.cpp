@@ -158,4 +158,32 @@ TEST(SimulateBoard, PosesAreInView)
 	}
 }
 
+// The errors are of the size that was asked for, about the board's middle; tilted poses, which nobody places, stay.
+TEST(SimulateBoard, PlacedPosesAreMisplacedAsTold)
+{
+	sim::BoardSettings exact, wrong;
+	wrong.misplaced = 0.0002;
+	wrong.misturned = 0.001;
+	const sim::Rig rig = sim::make_rig({});
+	double shift = 0, turn = 0;
+	const int seeds = 100;
+	for (uint64_t seed = 1; seed <= seeds; seed++) {
+		const auto should = sim::draw_poses(exact, rig, seed), is = sim::draw_poses(wrong, rig, seed);
+		const Eigen::Vector3d middle(0.100, 0.0625, 0);
+		for (size_t i = 0; i < is.size(); i++) {
+			const bool placed = i == 0 || std::isfinite(is[i].plane_z);
+			const Eigen::Matrix3d R = is[i].R_table_board * should[i].R_table_board.transpose();
+			const Eigen::Vector3d moved = is[i].origin + is[i].R_table_board * middle - should[i].origin -
+						      should[i].R_table_board * middle;
+			EXPECT_TRUE(placed || (moved.norm() < 1e-12 && R.isIdentity(1e-9)));
+			if (i != 1)
+				continue;
+			shift += moved.squaredNorm() / seeds;
+			turn += std::pow(std::acos(std::min(1.0, (R.trace() - 1) / 2)), 2) / seeds;
+		}
+	}
+	EXPECT_NEAR(std::sqrt(shift / 3), 0.0002, 0.00004);
+	EXPECT_NEAR(std::sqrt(turn / 3), 0.001, 0.0002);
+}
+
 } // namespace

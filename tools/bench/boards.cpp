@@ -192,4 +192,18 @@ VolumeError volume_error(const TrueRig &truth, const pong_camera camera[2], cons
 	return {sum / count, std::sqrt(squares / count)};
 }
 
+double expected_error(const pong_calibration &calibration, const std::vector<Vector3d> &positions)
+{
+	double squares = 0;
+	int count = 0;
+	for (const Vector3d &position : positions) {
+		double covariance[3][3];
+		if (pong_calibration_error(&calibration, position.data(), covariance) != PONG_FOUND)
+			continue;
+		squares += covariance[0][0] + covariance[1][1] + covariance[2][2];
+		count++;
+	}
+	return std::sqrt(squares / count);
+}
+
 } // namespace pong

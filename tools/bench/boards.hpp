@@ -67,4 +67,7 @@ struct VolumeError {
 VolumeError volume_error(const TrueRig &truth, const pong_camera camera[2],
 			 const std::vector<Eigen::Vector3d> &positions);
 
+// What a calibration itself expects of that rms, m; NaN where it knows no covariance.
+double expected_error(const pong_calibration &calibration, const std::vector<Eigen::Vector3d> &positions);
+
 } // namespace pong

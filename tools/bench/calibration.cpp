@@ -29,11 +29,11 @@ struct Conditions {
 struct Method {
 	const char *name;
 	bool boards; // whether it uses the boards held at will, or the planes only
-	std::function<bool(const Recording &, PictureSize, pong_camera[2])> run;
+	std::function<bool(const Recording &, PictureSize, pong_calibration &)> run;
 };
 
 bool ours(const Recording &recording, PictureSize size, pong_profile profile, pong_normalisation normalisation,
-	  bool table, pong_camera camera[2])
+	  bool table, pong_calibration &calibration)
 {
 	pong_calibrate_settings settings;
 	pong_calibrate_defaults(profile, &settings);
@@ -43,30 +43,35 @@ bool ours(const Recording &recording, PictureSize size, pong_profile profile, po
 		settings.width[side] = size.width;
 		settings.height[side] = size.height;
 	}
-	pong_calibration calibration;
-	if (pong_calibrate(recording.views.data(), static_cast<int>(recording.views.size()), recording.corners.data(),
-			   static_cast<int>(recording.corners.size()), &settings, &calibration, nullptr, nullptr,
-			   nullptr) < 0)
-		return false;
-	std::copy_n(calibration.camera, 2, camera);
-	return true;
+	return pong_calibrate(recording.views.data(), static_cast<int>(recording.views.size()),
+			      recording.corners.data(), static_cast<int>(recording.corners.size()), &settings,
+			      &calibration, nullptr, nullptr, nullptr) == PONG_FOUND;
+}
+
+// OpenCV's ways tell no covariance of points.
+void forget_covariance(pong_calibration &calibration)
+{
+	for (auto &row : calibration.covariance)
+		std::fill(std::begin(row), std::end(row), NAN);
 }
 
 std::vector<Method> methods()
 {
 	const auto paper = [](pong_normalisation normalisation) {
-		return [normalisation](const Recording &recording, PictureSize size, pong_camera camera[2]) {
-			return ours(recording, size, PONG_PAPER, normalisation, true, camera);
+		return [normalisation](const Recording &recording, PictureSize size, pong_calibration &calibration) {
+			return ours(recording, size, PONG_PAPER, normalisation, true, calibration);
 		};
 	};
-	const auto best = [](const Recording &recording, PictureSize size, pong_camera camera[2]) {
-		return ours(recording, size, PONG_BEST, PONG_NORMALISE_DEVIATION, true, camera);
+	const auto best = [](const Recording &recording, PictureSize size, pong_calibration &calibration) {
+		return ours(recording, size, PONG_BEST, PONG_NORMALISE_DEVIATION, true, calibration);
 	};
-	const auto each = [](const Recording &recording, PictureSize size, pong_camera camera[2]) {
-		return calibrate_each(recording.views, recording.corners, size, camera);
+	const auto each = [](const Recording &recording, PictureSize size, pong_calibration &calibration) {
+		forget_covariance(calibration);
+		return calibrate_each(recording.views, recording.corners, size, calibration.camera);
 	};
-	const auto stereo = [](const Recording &recording, PictureSize size, pong_camera camera[2]) {
-		return calibrate_stereo(recording.views, recording.corners, size, camera);
+	const auto stereo = [](const Recording &recording, PictureSize size, pong_calibration &calibration) {
+		forget_covariance(calibration);
+		return calibrate_stereo(recording.views, recording.corners, size, calibration.camera);
 	};
 	return {{"paper-unnormalised", false, paper(PONG_NORMALISE_NONE)},
 		{"paper-variance", false, paper(PONG_NORMALISE_VARIANCE)},
@@ -105,37 +110,43 @@ void run_conditions(const Conditions &conditions, int boards, int seeds)
 	session.placement = conditions.placement;
 	session.tilt = conditions.tilt;
 	for (const Method &method : methods()) {
-		double pixels = 0, volume = 0;
+		double pixels = 0, volume = 0, squares = 0, expected = 0;
 		int done = 0;
 		session.boards = method.boards ? boards : 0;
 		for (int seed = 1; seed <= seeds && !pong::stop_requested(); seed++) {
 			std::mt19937_64 random(static_cast<uint64_t>(seed));
 			const Recording recording = pong::record(rig, session, random);
-			pong_camera camera[2];
-			if (!method.run(recording, {pong::true_width, pong::true_height}, camera))
+			pong_calibration calibration;
+			if (!method.run(recording, {pong::true_width, pong::true_height}, calibration))
 				continue;
-			const double off = pong::volume_error(rig, camera, pong::table_volume()).mean;
-			if (!std::isfinite(off))
+			const pong::VolumeError off = pong::volume_error(rig, calibration.camera, pong::table_volume());
+			if (!std::isfinite(off.mean))
 				continue;
-			pixels += error_at(1.7, rig, camera);
-			volume += 1e3 * off;
+			pixels += error_at(1.7, rig, calibration.camera);
+			volume += 1e3 * off.mean;
+			squares += off.rms * off.rms;
+			expected += std::pow(pong::expected_error(calibration, pong::table_volume()), 2);
 			done++;
 		}
 		if (pong::stop_requested())
 			return;
 		printf("%.2f %.2f %.1f %.1f %s ", conditions.noise, conditions.k1, 1e3 * conditions.placement,
 		       1e3 * conditions.tilt, method.name);
-		if (done)
-			printf("%.4f %.3f %d\n", pixels / done, volume / done, seeds - done);
+		if (done && std::isfinite(expected))
+			printf("%.4f %.3f %.3f %.3f %d\n", pixels / done, volume / done,
+			       1e3 * std::sqrt(squares / done), 1e3 * std::sqrt(expected / done), seeds - done);
+		else if (done)
+			printf("%.4f %.3f %.3f - %d\n", pixels / done, volume / done, 1e3 * std::sqrt(squares / done),
+			       seeds - done);
 		else
-			printf("- - %d\n", seeds);
+			printf("- - - - %d\n", seeds);
 		fflush(stdout);
 	}
 }
 
 void run_figure(int boards, int seeds)
 {
-	printf("# noise_px k1 placement_mm tilt_mrad method error_px error_mm failed\n");
+	printf("# noise_px k1 placement_mm tilt_mrad method error_px error_mm rms_mm expected_rms_mm failed\n");
 	const Conditions usual = {0.1, -0.15, 0.0002, 0.001};
 	run_conditions({0.1, 0, 0, 0}, boards, seeds);
 	for (const double noise : {0.05, 0.1, 0.2, 0.5})
@@ -205,11 +216,11 @@ void run_pictures(const std::string &left, const std::string &right, const calib
 	const Recording recording = half_of(pairs, board, 0), check = half_of(pairs, board, 1);
 	const PictureSize size = {pairs.front().picture[0].cols, pairs.front().picture[0].rows};
 	printf("# method pairs rms_px held_out_pairs held_out_rms_px\n");
-	pong_camera camera[2];
-	if (ours(recording, size, PONG_BEST, PONG_NORMALISE_DEVIATION, false, camera))
-		print_held_out("best", recording, check, camera);
-	if (calibrate_stereo(recording.views, recording.corners, size, camera))
-		print_held_out("cv-stereoCalibrate", recording, check, camera);
+	pong_calibration calibration;
+	if (ours(recording, size, PONG_BEST, PONG_NORMALISE_DEVIATION, false, calibration))
+		print_held_out("best", recording, check, calibration.camera);
+	if (calibrate_stereo(recording.views, recording.corners, size, calibration.camera))
+		print_held_out("cv-stereoCalibrate", recording, check, calibration.camera);
 }
 
 // How far apart two rigs put what one of them sees: points over the table, m.

@@ -133,8 +133,9 @@ void score_rivals(const Experiment &experiment, const Launch &launch, const std:
 }
 
 // What is known of the launches' physics before the first of them flies, as a rig.toml would say it.
-void tell_rig(const LaunchSettings &settings, pong_ball_spec &ball)
+void tell_rig(const LaunchSettings &settings, pong_rig &rig)
 {
+	pong_ball_spec &ball = rig.ball;
 	const sim::Coefficients mean;
 	const Spread spread = spread_of(settings);
 	ball.drag = mean.drag;
@@ -148,6 +149,7 @@ void tell_rig(const LaunchSettings &settings, pong_ball_spec &ball)
 	ball.friction = mean.friction;
 	ball.friction_sigma = spread.friction;
 	ball.grip = ball.grip_sigma = 0;
+	rig.table.height_sigma = 0;
 	std::fill_n(ball.spin_sigma, 3, spread.spin);
 }
 
@@ -234,7 +236,7 @@ void run_flight(Experiment &experiment, const Launch &launch, const std::vector<
 
 void run_range(Experiment experiment, const std::string &figures, Experiment &total)
 {
-	tell_rig(experiment.launches, experiment.rig.ball);
+	tell_rig(experiment.launches, experiment.rig);
 	Scores scores;
 	for (int round = 0; round < experiment.rounds && !pong::stop_requested(); round++) {
 		const auto launches = draw_launches(experiment.sim_rig, experiment.launches);

@@ -112,10 +112,11 @@ void check(const Arguments &arguments, const std::string &board)
 				"far left; -,- for one that is not seen");
 	if (arguments.table[0].empty() != arguments.table[1].empty())
 		throw pong::UsageError("--table-left and --table-right belong together");
-	const bool placed = !arguments.plane_z.empty() || !arguments.flat.empty() || !arguments.table[0].empty();
-	if (!placed && !arguments.no_table && arguments.check.empty() && !live)
+	const bool placed = !arguments.plane_z.empty() || !arguments.flat.empty() || !arguments.table_pair.empty() ||
+			    !arguments.table[0].empty();
+	if (!placed && !arguments.no_table && arguments.check.empty())
 		throw pong::UsageError(
-			"where is the table? --plane-z, --flat, or --table-left and --table-right say it; "
+			"where is the table? --plane-z, --flat, --table, or --table-left and --table-right say it; "
 			"--no-table makes the left camera the frame");
 }
 
@@ -126,6 +127,7 @@ bool parse_arguments(int argc, char **argv, Arguments &arguments)
 	std::vector<char *> rest(argv, argv + argc);
 	arguments.files[PONG_LEFT] = take_list(rest, "--left");
 	arguments.files[PONG_RIGHT] = take_list(rest, "--right");
+	arguments.refine = take_list(rest, "--refine-from");
 	std::string board, plane_z, plane_at, plane_sigma, flat_at, flat_sigma, table[2], files_seen;
 	int knocked = PONG_RIGHT;
 	pong::Options options("pongeye-calibrate",
@@ -144,10 +146,12 @@ bool parse_arguments(int argc, char **argv, Arguments &arguments)
 	options.text("--flat", "NAME", "the pair whose board lies on the table, rows across it", &arguments.flat);
 	options.text("--flat-at", "X,Z,Y", "where its middle is, and the board's thickness, m (0,0.6,0)", &flat_at);
 	options.text("--flat-sigma", "M,RAD", "how well it was placed (0.001,0.002)", &flat_sigma);
+	options.text("--table", "NAME", "the pair in which the table's corners are found, by its white lines",
+		     &arguments.table_pair);
 	options.text(
 		"--table-left", "U,V,...",
 		"pixels of the table's corners in the left picture: near left, near right, far right, far left; -,-: "
-		"not seen",
+		"not seen. With --table: roughly, to be refined there",
 		&table[PONG_LEFT]);
 	options.text("--table-right", "U,V,...", "the same in the right picture", &table[PONG_RIGHT]);
 	options.number("--table-sigma", "METRES",
@@ -163,8 +167,11 @@ bool parse_arguments(int argc, char **argv, Arguments &arguments)
 	options.text("--check", "RIG", "calibrate nothing: score this rig.toml on the pictures", &arguments.check);
 	options.text("--cameras", "RIG", "collect the pictures live from the cameras that this rig.toml names",
 		     &arguments.cameras);
-	options.text("--refine-from", "FLIGHTS",
-		     "correct --rig after a knock, from a table that pongeye-track --output wrote", &arguments.refine);
+	options.integer("--pairs", "N", "with --cameras: how many (24)", &arguments.pairs, 4, 1000);
+	options.text("--save", "DIR", "with --cameras: keep the pictures here, to calibrate from them again",
+		     &arguments.save);
+	options.text("--refine-from", "FLIGHTS ...",
+		     "correct --rig after a knock, from tables that pongeye-track --output wrote", &files_seen);
 	options.text("--rig", "RIG", "the rig.toml that --refine-from corrects", &arguments.rig);
 	options.choice("--knocked", {"left", "right"}, "the camera that was knocked (right)", &knocked);
 	if (!options.parse(static_cast<int>(rest.size()), rest.data()))

@@ -21,10 +21,14 @@ struct Arguments {
 	std::string flat;                // the picture of the board that lies on the table
 	double flat_at[3] = {0, 0.6, 0}; // x and z of its middle, its thickness, m
 	double flat_sigma[2] = {0.001, 0.002};
-	std::vector<double> table[2]; // pixels of the table's corners, NaN where not seen
+	std::string table_pair;       // the pictures in which the table's corners are found
+	std::vector<double> table[2]; // pixels of the table's corners, NaN where not seen; with table_pair: roughly
 	double table_sigma = 0;       // m; 0: the corners' distances are free
 	bool no_table = false;        // the frame is the left camera's
-	std::string check, cameras, refine, rig;
+	std::string check, cameras, rig;
+	std::vector<std::string> refine; // tables of flights
+	int pairs = 24;                  // to be collected live
+	std::string save;                // the folder for their pictures
 	pong_side knocked = PONG_RIGHT;
 	std::string output = "rig.toml", report;
 	double accept = 0; // mm; 0: 5 over a table, without one anything

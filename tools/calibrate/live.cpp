@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+
+#include <opencv2/imgcodecs.hpp>
 
 #include "../track/cameras.hpp"
 #include "../track/capture_settings.hpp"
 #include "program.hpp"
+#include "session.hpp"
+#include "volume.hpp"
 
 namespace calibrate
 {
@@ -16,7 +21,7 @@ namespace
 const int look_every_us = 150000; // finding a board takes longer than a picture lasts
 const double still = 0.3;         // a board whose corners move less from look to look is still, px rms
 const double fresh = 0.05;        // and in a new pose if they are farther from every kept one, parts of the width
-const size_t enough = 24;         // pairs
+const size_t least_pairs = 4;     // for a calibration
 
 double distance(const std::vector<cv::Point2f> &a, const std::vector<cv::Point2f> &b)
 {
@@ -59,14 +64,63 @@ double tilt_of(const std::vector<cv::Point2f> &corners, const BoardSize &board)
 			ratio(0, last - columns + 1, columns - 1, last));
 }
 
-void tell_wanted(const std::vector<Pair> &kept, const BoardSize &board)
+// Where the picture is bare, and whether boards are tilted: what tells enough for a first calibration.
+std::string wanted_first(const std::vector<Pair> &kept, const BoardSize &board)
 {
 	const auto tilted = std::count_if(kept.begin(), kept.end(), [&](const Pair &pair) {
 		return tilt_of(pair.found[0].corners, board) > 0.05;
 	});
-	fprintf(stderr, "%zu of %zu pairs; wanted next: the %s of the left picture%s\n", kept.size(), enough,
-		wanted_place(kept).c_str(),
-		static_cast<size_t>(2 * tilted) < kept.size() ? ", the board tilted by 30 degrees or more" : "");
+	const bool flat = static_cast<size_t>(2 * tilted) < kept.size();
+	return "the " + wanted_place(kept) + " of the left picture" +
+	       (flat ? ", the board tilted by 30 degrees or more" : "");
+}
+
+// The pose that would make points the most certain, by the calibration that the kept pairs give in the left camera's
+// frame; empty where they give none yet.
+std::string wanted_most(const std::vector<Pair> &kept, const BoardSize &board)
+{
+	Arguments arguments;
+	arguments.board = board;
+	arguments.no_table = true;
+	Session session;
+	session.pairs = kept;
+	try {
+		solve(arguments, session);
+	} catch (const pong::Failure &) {
+		return "";
+	}
+	const auto grid = volume_grid(session, false);
+	const auto advice = advise(session, board, grid);
+	if (advice.empty())
+		return "";
+	return pong::format("a board %s: points would be %.2f mm off, now %.2f", advice.front().text.c_str(),
+			    advice.front().mean, expect_error(session.calibration, grid).mean);
+}
+
+void tell_wanted(const std::vector<Pair> &kept, const Arguments &arguments)
+{
+	const bool done = kept.size() >= static_cast<size_t>(arguments.pairs);
+	std::string wanted;
+	if (!done && kept.size() >= least_pairs)
+		wanted = wanted_most(kept, arguments.board);
+	if (wanted.empty())
+		wanted = wanted_first(kept, arguments.board);
+	fprintf(stderr, "%zu of %d pairs%s\n", kept.size(), arguments.pairs,
+		done ? "" : ("; wanted next: " + wanted).c_str());
+}
+
+// As --left and --right take them.
+void save(const std::string &folder, const Pair &pair)
+{
+	if (folder.empty())
+		return;
+	std::error_code error;
+	std::filesystem::create_directories(folder, error);
+	for (const size_t side : {0, 1}) {
+		const std::string path = folder + "/" + pair.name + (side ? "-right.png" : "-left.png");
+		if (!cv::imwrite(path, pair.picture[side]))
+			throw pong::Failure(path + ": cannot be written");
+	}
 }
 
 bool is_new(const std::vector<Pair> &kept, const Pair &pair)
@@ -107,7 +161,7 @@ std::vector<Pair> collect(const Arguments &arguments)
 	std::vector<Pair> kept;
 	Pair before;
 	int64_t next_look = 0;
-	while (kept.size() < enough && !pong::stop_requested()) {
+	while (kept.size() < static_cast<size_t>(arguments.pairs) && !pong::stop_requested()) {
 		track::StereoPair pictures;
 		const track::Next next = source->next(pictures);
 		if (next == track::Next::END)
@@ -119,13 +173,15 @@ std::vector<Pair> collect(const Arguments &arguments)
 		if (both_found(pair) && both_found(before) &&
 		    distance(pair.found[0].corners, before.found[0].corners) < still && is_new(kept, pair)) {
 			pair.name = pong::format("live-%02zu", kept.size() + 1);
+			save(arguments.save, pair);
 			kept.push_back(pair);
-			tell_wanted(kept, arguments.board);
+			tell_wanted(kept, arguments);
 		}
 		before = pair;
 	}
-	if (kept.size() < 4)
-		throw pong::Failure(pong::format("only %zu pairs were collected: 4 are needed at least", kept.size()));
+	if (kept.size() < least_pairs)
+		throw pong::Failure(pong::format("only %zu pairs were collected: %zu are needed at least", kept.size(),
+						 least_pairs));
 	return kept;
 }
 

@@ -10,6 +10,7 @@
 #include "report.hpp"
 #include "rig_file.hpp"
 #include "session.hpp"
+#include "table_view.hpp"
 #include "volume.hpp"
 
 namespace
@@ -94,6 +95,7 @@ int check_rig(const Arguments &arguments, Session &session)
 
 int calibrate_rig(const Arguments &arguments, Session &session)
 {
+	locate_table(arguments, session);
 	solve(arguments, session);
 	tell_pairs(session);
 	if (arguments.output != "-")

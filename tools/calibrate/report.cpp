@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "error_map.hpp"
 #include "program.hpp"
 
 namespace calibrate
@@ -74,57 +75,6 @@ cv::Mat drawn(const Session &session, size_t pair, int side)
 	return picture;
 }
 
-// Green for a millimetre or less, over yellow, to red for ten and more.
-std::string colour(double error)
-{
-	if (!std::isfinite(error))
-		return "#e8e8e8";
-	const double part = std::clamp(std::log10(error), 0.0, 1.0);
-	return format("hsl(%.0f,75%%,48%%)", 130 * (1 - part));
-}
-
-// The mean over the places that lie on top of each other when axis `across` is right and `up` is up.
-// Seen from above the robot stands below, and x runs to its left.
-std::string error_map(const Volume &volume, size_t across, size_t up, const char *title)
-{
-	struct Cell {
-		double a, b, sum;
-		int count;
-	};
-	std::vector<Cell> cells;
-	for (const ExpectedError &place : volume.places) {
-		const double a = std::round(place.position[across] * 50) / 50,
-			     b = std::round(place.position[up] * 50) / 50;
-		auto cell =
-			std::find_if(cells.begin(), cells.end(), [&](const Cell &c) { return c.a == a && c.b == b; });
-		if (cell == cells.end())
-			cell = cells.insert(cells.end(), {a, b, 0, 0});
-		if (std::isfinite(place.total)) {
-			cell->sum += place.total;
-			cell->count++;
-		}
-	}
-	double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
-	for (const Cell &cell : cells) {
-		low[0] = std::min(low[0], cell.a), high[0] = std::max(high[0], cell.a);
-		low[1] = std::min(low[1], cell.b), high[1] = std::max(high[1], cell.b);
-	}
-	const double scale = 560 / std::max(high[0] - low[0], 0.1), height = (high[1] - low[1]) * scale + 100;
-	std::string svg =
-		format("<svg viewBox='0 0 680 %.0f'><text x='0' y='18' font-size='16'>%s</text>", height, title);
-	for (const Cell &cell : cells) {
-		const double from_left = across == 0 ? high[0] - cell.a : cell.a - low[0];
-		const double x = 60 + from_left * scale, y = 60 + (high[1] - cell.b) * scale;
-		const double error = cell.count ? cell.sum / cell.count : NAN;
-		svg += format(
-			"<rect x='%.1f' y='%.1f' width='46' height='26' rx='4' fill='%s'/><text x='%.1f' y='%.1f' "
-			"font-size='12' text-anchor='middle'>%s<title>%.2f, %.2f m</title></text>",
-			x - 23, y - 13, colour(error).c_str(), x, y + 4,
-			cell.count ? format("%.1f", error).c_str() : "-", cell.a, cell.b);
-	}
-	return svg + "</svg>";
-}
-
 void write_volume(std::ofstream &page, const Volume &volume, const std::vector<Advice> &advice)
 {
 	if (!std::isfinite(volume.mean))
@@ -132,14 +82,33 @@ void write_volume(std::ofstream &page, const Volume &volume, const std::vector<A
 	page << format("<h2>Expected 3-D error</h2><p>From the calibration alone, root mean square, mm: <b>%.2f in the "
 		       "mean, %.2f at most</b>, over the %.0f %% of the volume that both cameras see.</p>",
 		       volume.mean, volume.worst, 100 * volume.seen)
-	     << "<div class=maps>" << error_map(volume, 0, 2, "From above, the robot below: x to the left, z up, m")
-	     << error_map(volume, 2, 1, "From the side, the robot on the left: z to the right, y up, m") << "</div>";
+	     << "<div class=maps>" << error_map(volume, {0, 2}, "From above, mm; the robot stands below")
+	     << error_map(volume, {2, 1}, "From the side, mm; the robot stands on the left") << "</div>";
 	if (advice.empty())
 		return;
 	page << "<p>One more board would help most:</p><ul>";
 	for (const Advice &one : advice)
 		page << format("<li>%s: %.2f mm</li>", one.text.c_str(), one.mean);
 	page << "</ul>";
+}
+
+// The outline's points green, the corners red.
+void write_table(std::ofstream &page, const TableView &table)
+{
+	if (table.name.empty())
+		return;
+	page << "<h2>The table</h2><p>" << escaped(table.name)
+	     << ": points of the white lines' outer edges green, the corners that follow red.</p><div class=pair>";
+	for (size_t side = 0; side < 2; side++) {
+		cv::Mat picture;
+		cv::cvtColor(table.picture[side], picture, cv::COLOR_GRAY2BGR);
+		for (const cv::Point2d &point : table.edge[side])
+			cv::circle(picture, point, 1, {80, 200, 0}, cv::FILLED, cv::LINE_AA);
+		for (const cv::Point2d &corner : table.corners[side])
+			cv::circle(picture, corner, 5, {40, 40, 255}, 1, cv::LINE_AA);
+		page << as_image(picture);
+	}
+	page << "</div>";
 }
 
 void write_pictures(std::ofstream &page, const Session &session)
@@ -177,6 +146,7 @@ void write_report(const std::string &path, const Session &session, const Volume 
 	for (const std::string &note : session.notes)
 		page << "<p>" << escaped(note) << "</p>";
 	write_volume(page, volume, advice);
+	write_table(page, session.table);
 	write_pictures(page, session);
 	page.close();
 	if (!page)

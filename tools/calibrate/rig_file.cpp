@@ -24,7 +24,11 @@ void write_rig(const std::string &path, const pong_rig &rig, const std::string &
 	std::string text(static_cast<size_t>(pong_rig_format(&rig, nullptr, 0)) + 1, '\0');
 	pong_rig_format(&rig, text.data(), static_cast<int>(text.size()));
 	text.pop_back();
-	text += calibration;
+	write_text(path, text + calibration);
+}
+
+void write_text(const std::string &path, const std::string &text)
+{
 	FILE *file = path == "-" ? stdout : fopen(path.c_str(), "w");
 	if (!file || fputs(text.c_str(), file) < 0 || fflush(file) != 0 || (file != stdout && fclose(file) != 0))
 		throw pong::Failure(path + ": cannot be written");

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "program.hpp"
+#include "table_view.hpp"
 
 namespace calibrate
 {
@@ -15,7 +16,6 @@ namespace
 
 // A picture whose corners miss by so many times what is usual spoils the rest.
 const double usual_factor = 3;
-const double table_pixel_sigma = 5; // the table's corners are seen so much worse than a board's
 
 struct Placement {
 	double R[3][3];
@@ -67,33 +67,6 @@ void add_corners(const BoardSize &board, const Pair &pair, int view, std::vector
 					   1});
 		}
 	}
-}
-
-// The table's corners are a board of their own that stands in the table frame. Where its size is only a check, its
-// points may lie anywhere.
-void add_table(const Arguments &arguments, Session &session)
-{
-	const double length = 2.74, width = 1.525;
-	const double place[4][3] = {
-		{width / 2, 0, 0}, {-width / 2, 0, 0}, {-width / 2, 0, length}, {width / 2, 0, length}};
-	const double exact[2] = {0, 0};
-	pong_view view = placed({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, exact});
-	view.sigma_shape = arguments.table_sigma > 0 ? arguments.table_sigma : 1;
-	const int number = static_cast<int>(session.views.size());
-	session.views.push_back(view);
-	session.has_table_view = true;
-	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-		for (int point = 0; point < 4; point++) {
-			const double u = arguments.table[side][static_cast<size_t>(2 * point)];
-			const double v = arguments.table[side][static_cast<size_t>(2 * point) + 1];
-			if (std::isfinite(u) && std::isfinite(v))
-				session.corners.push_back({number,
-							   side,
-							   point,
-							   {place[point][0], place[point][1], place[point][2]},
-							   {u, v},
-							   table_pixel_sigma});
-		}
 }
 
 pong_calibrate_settings settings_for(const Arguments &arguments, const Session &session)
@@ -172,33 +145,6 @@ void check_placement(const Arguments &arguments, Session &session)
 	}
 }
 
-void check_table(const Arguments &arguments, Session &session)
-{
-	if (!session.has_table_view || session.corners.empty())
-		return;
-	double place[4][3];
-	for (int point = 0; point < 4; point++) {
-		const auto &left = arguments.table[PONG_LEFT], &right = arguments.table[PONG_RIGHT];
-		if (pong_triangulate(session.calibration.camera, &left[static_cast<size_t>(2 * point)],
-				     &right[static_cast<size_t>(2 * point)], place[point]) != PONG_FOUND)
-			std::fill_n(place[point], 3, NAN);
-	}
-	const auto distance = [&](int a, int b) {
-		return std::hypot(place[a][0] - place[b][0], place[a][1] - place[b][1], place[a][2] - place[b][2]);
-	};
-	const struct {
-		const char *name;
-		double measured, stated;
-	} sides[] = {{"near end", distance(0, 1), 1.525},
-		     {"far end", distance(2, 3), 1.525},
-		     {"left side", distance(0, 3), 2.74},
-		     {"right side", distance(1, 2), 2.74}};
-	for (const auto &side : sides)
-		if (std::isfinite(side.measured))
-			session.notes.push_back(pong::format("the table's %s measures %.1f mm, should %.1f", side.name,
-							     1e3 * side.measured, 1e3 * side.stated));
-}
-
 } // namespace
 
 void build_views(const Arguments &arguments, Session &session)
@@ -214,8 +160,7 @@ void build_views(const Arguments &arguments, Session &session)
 		session.views.push_back(view_of(arguments, pair, i));
 		session.used.push_back(i);
 	}
-	session.has_table_view = false;
-	if (!session.used.empty() && !arguments.table[0].empty())
+	if (!session.used.empty() && session.table.given)
 		add_table(arguments, session);
 }
 

@@ -7,16 +7,27 @@
 #include "arguments.hpp"
 #include "pictures.hpp"
 #include "pongeye.h"
+#include "table_corners.hpp"
 
 namespace calibrate
 {
+
+// The table's corners, where they set the frame. Of those that were found in pictures, the pictures and the points of
+// the outline too.
+struct TableView {
+	bool given = false;
+	std::string name; // of the pair; empty where the corners were given in pixels
+	std::array<cv::Mat, 2> picture;
+	std::array<TableCorners, 2> corners;
+	std::array<std::vector<cv::Point2d>, 2> edge;
+};
 
 // A calibration and all that went into it. Views are those pairs that were used, in order, and the table's corners last
 // where they were given.
 struct Session {
 	std::vector<Pair> pairs;
 	std::vector<size_t> used; // the pair of each view
-	bool has_table_view = false;
+	TableView table;
 	std::vector<pong_view> views;
 	std::vector<pong_corner> corners;
 	pong_calibration calibration = {};

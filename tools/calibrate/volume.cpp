@@ -114,16 +114,21 @@ double mean_with(const Session &session, const BoardSize &board, const Pose &pos
 
 } // namespace
 
-Grid volume_grid(const Session &session, bool table)
+Grid table_grid()
 {
 	Grid grid;
-	if (table) {
-		for (const double y : {0.02, 0.22, 0.42})
-			for (int i = 0; i <= 10; i++)
-				for (int j = 0; j <= 6; j++)
-					grid.push_back({-0.7625 + 1.525 * j / 6, y, 2.74 * i / 10});
-		return grid;
-	}
+	for (const double y : {0.02, 0.22, 0.42})
+		for (int i = 0; i <= 10; i++)
+			for (int j = 0; j <= 6; j++)
+				grid.push_back({-0.7625 + 1.525 * j / 6, y, 2.74 * i / 10});
+	return grid;
+}
+
+Grid volume_grid(const Session &session, bool table)
+{
+	if (table)
+		return table_grid();
+	Grid grid;
 	const auto [nearest, farthest] = distances(session);
 	for (int k = 0; k <= 4; k++)
 		for (int i = 0; i <= 6; i++)

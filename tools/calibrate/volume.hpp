@@ -23,7 +23,10 @@ struct Volume {
 	double seen;        // the part of the places that both cameras see
 };
 
-// A grid over the table, to half a metre above it; without a table, over the distances at which boards were shown.
+// A grid over the table, to half a metre above it.
+std::vector<std::array<double, 3>> table_grid();
+
+// That, or without a table one over the distances at which boards were shown.
 std::vector<std::array<double, 3>> volume_grid(const Session &session, bool table);
 
 Volume expect_error(const pong_calibration &calibration, const std::vector<std::array<double, 3>> &grid);

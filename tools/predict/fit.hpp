@@ -12,9 +12,9 @@ namespace predict
 
 // A coefficient over many flights.
 struct Fitted {
-	const char *key;    // in rig.toml's [ball]
-	double mean, sigma; // what holds for all flights, and how they differ
-	double uncertainty; // standard deviation of the mean
+	const char *section, *key; // in rig.toml
+	double mean, sigma;        // what holds for all flights, and how they differ
+	double uncertainty;        // standard deviation of the mean
 };
 
 struct Fit {
@@ -25,10 +25,10 @@ struct Fit {
 
 // Fit them, from the rig's values on, by expectation maximisation: every flight's most probable coefficients under the
 // present mean and spread, then the mean and spread of those. What the rig believed before counts as a few flights.
-// The rig's ball gets the result.
+// The rig gets the result.
 Fit fit(const std::vector<RecordedFlight> &flights, const pong_settings &settings, double noise, pong_rig &rig);
 
-// The result as a section of rig.toml.
-std::string fit_text(const Fit &fit);
+// The result as text: the [ball] and [table] of a rig.toml.
+std::string fit_text(const Fit &fit, const pong_table &table);
 
 } // namespace predict

@@ -114,7 +114,9 @@ void predict_rows(predict::PointReader &reader, const Arguments &arguments, cons
 
 std::string fit_text(const Arguments &arguments, const pong_settings &settings, pong_rig rig)
 {
-	return predict::fit_text(predict::fit(predict::read_flights(arguments.fit), settings, arguments.noise, rig));
+	const auto flights = predict::read_flights(arguments.fit);
+	const predict::Fit fit = predict::fit(flights, settings, arguments.noise, rig);
+	return predict::fit_text(fit, rig.table);
 }
 
 bool parse(int argc, char **argv, Arguments &arguments)
@@ -138,7 +140,7 @@ bool parse(int argc, char **argv, Arguments &arguments)
 	options.number("--noise", "METRES",
 		       "standard deviation of the points where the table has no sx sy sz (found out from the points)",
 		       &arguments.noise, 1e-6, 10);
-	options.text("--rig", "FILE", "ball, table and hit plane; cameras are not needed", &arguments.rig);
+	options.text("--rig", "FILE", "ball, table, hit plane and settings; cameras are not needed", &arguments.rig);
 	options.text("--fit", "FLIGHTS", "fit the coefficients to these recorded flights, and write them as TOML",
 		     &arguments.fit);
 	if (!options.parse(argc, argv))
@@ -158,9 +160,10 @@ int run(int argc, char **argv)
 	pong_settings settings;
 	pong_error error;
 	pong_rig_defaults(&rig);
-	if (!arguments.rig.empty() && pong_rig_load_flight(arguments.rig.c_str(), &rig, &error) < 0)
-		throw pong::Failure(error.text);
 	pong_settings_defaults(static_cast<pong_profile>(arguments.profile), &settings);
+	if (!arguments.rig.empty() && (pong_rig_load_flight(arguments.rig.c_str(), &rig, &error) < 0 ||
+				       pong_settings_load(arguments.rig.c_str(), &settings, &error) < 0))
+		throw pong::Failure(error.text);
 	if (arguments.has_hit_plane)
 		rig.hit_z = arguments.hit_plane;
 	if (!arguments.fit.empty()) {

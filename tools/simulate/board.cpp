@@ -81,33 +81,63 @@ BoardPose draw_tilted(const BoardSettings &settings, const Rig &rig, std::mt1993
 	return pose;
 }
 
-// Moved along z as on rails: x and y stay. High enough to be seen at the nearest and at the farthest plane.
-BoardPose at_plane(const BoardSettings &settings, const Rig &rig, double z)
+// High enough to be seen at the nearest and at the farthest plane.
+double height_of_planes(const BoardSettings &settings, const Rig &rig)
 {
+	if (std::isfinite(settings.plane_y))
+		return settings.plane_y;
 	double y = 0;
 	for (const double plane : settings.planes) {
 		const Vector3d axis = direction(rig, 0, 0);
 		y += (rig[0].centre.y() + (plane - rig[0].centre.z()) * axis.y() / axis.z()) /
 		     static_cast<double>(settings.planes.size());
 	}
-	BoardPose pose = centred(settings, upright(), {0, y, z});
+	return y;
+}
+
+// Moved along z as on rails: x and y stay.
+BoardPose at_plane(const BoardSettings &settings, const Rig &rig, double z)
+{
+	BoardPose pose = centred(settings, upright(), {0, height_of_planes(settings, rig), z});
 	pose.plane_z = z;
 	return pose;
+}
+
+// Where people put a board that they meant to put at `pose`: moved, and turned about its middle.
+BoardPose misplaced(const BoardSettings &settings, const BoardPose &pose, std::mt19937_64 &random)
+{
+	if (settings.misplaced == 0 && settings.misturned == 0)
+		return pose;
+	std::normal_distribution<double> normal(0, 1);
+	const auto draw = [&](double sigma) {
+		const double x = normal(random), y = normal(random), z = normal(random);
+		return Vector3d(sigma * Vector3d(x, y, z));
+	};
+	const Vector3d shift = draw(settings.misplaced), turn = draw(settings.misturned);
+	const Vector3d half((settings.columns - 1) * settings.square / 2, (settings.rows - 1) * settings.square / 2, 0);
+	const Vector3d middle = pose.origin + pose.R_table_board * half;
+	Matrix3d R = pose.R_table_board;
+	if (turn.norm() > 0)
+		R = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * R;
+	BoardPose result = centred(settings, R, middle + shift);
+	result.plane_z = pose.plane_z;
+	return result;
 }
 
 } // namespace
 
 std::vector<BoardPose> draw_poses(const BoardSettings &settings, const Rig &rig, uint64_t seed)
 {
-	std::mt19937_64 random(hash(seed + 77));
+	// Errors of placement have a generator of their own, so that they change no other pose.
+	std::mt19937_64 random(hash(seed + 77)), errors(hash(seed + 78));
 	BoardPose flat = centred(settings, lying(), {0, 0, 0.6});
 	for (int i = 0; i < 200 && !in_view(settings, flat, rig); i++)
 		flat.origin.z() += 0.01;
-	std::vector<BoardPose> poses = {flat};
+	std::vector<BoardPose> poses = {misplaced(settings, flat, errors)};
 	const size_t tilted = static_cast<size_t>(settings.tilted);
 	for (size_t i = 0; i < std::max(settings.planes.size(), tilted); i++) {
 		if (i < settings.planes.size())
-			poses.push_back(at_plane(settings, rig, settings.planes[i]));
+			poses.push_back(misplaced(settings, at_plane(settings, rig, settings.planes[i]), errors));
 		if (i < tilted)
 			poses.push_back(draw_tilted(settings, rig, random));
 	}

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "fault_list.hpp"
 #include "folder.hpp"
 #include "live.hpp"
 #include "options.hpp"
@@ -14,7 +15,7 @@ namespace
 {
 
 struct Request {
-	std::string folder, scene = "rally", truth, rig, trigger_line, miss;
+	std::string folder, scene = "rally", truth, rig, trigger_line, miss, faults;
 	bool cameras = false, list_scenes = false;
 	int seed = 1, flights = 0, frames = 0;
 	double rate = 110;
@@ -53,6 +54,15 @@ pong::Options options(Request *request)
 		     "expose at the edges that come to this socket, which is made, at --rate (with --cameras)",
 		     &request->trigger_line);
 	options.text("--miss", "CAMERA:N", "left or right misses every N-th trigger (with --cameras)", &request->miss);
+	options.text(
+		"--fault", "LIST",
+		"what goes wrong, as CAMERA:KIND[=AMOUNT][@BEGIN[+SECONDS]], several apart by commas (with "
+		"--cameras).\n"
+		"                          CAMERA: left, right, both. KIND: lose=PART, reorder=PART (of the packets),\n"
+		"                          miss, truncate (pulses, pictures; =PART of them), freeze, die, held (its\n"
+		"                          control, by a dead client), offset=S, drift=PPM (its clock), block=ID (the\n"
+		"                          first frame's). BEGIN: seconds from the first pulse, flightN or bounceN",
+		&request->faults);
 	return options;
 }
 
@@ -68,8 +78,8 @@ void check(const Request &request)
 		throw pong::UsageError("one of --out and --cameras is needed, not both");
 	if (!request.cameras && (!request.truth.empty() || !request.rig.empty()))
 		throw pong::UsageError("--truth and --rig go with --cameras; --out writes both into its folder");
-	if (!request.cameras && (!request.trigger_line.empty() || !request.miss.empty()))
-		throw pong::UsageError("--trigger-line and --miss go with --cameras");
+	if (!request.cameras && (!request.trigger_line.empty() || !request.miss.empty() || !request.faults.empty()))
+		throw pong::UsageError("--trigger-line, --miss and --fault go with --cameras");
 }
 
 // How many frames the request asks for; 0: no end.
@@ -101,6 +111,16 @@ void inject(const std::string &miss, gige::ServerSettings &settings)
 	settings.cameras[is_left ? 0 : 1].miss_every = every;
 }
 
+void inject_faults(const Request &request, const sim::Scene &scene, gige::ServerSettings &settings)
+{
+	const auto seed = static_cast<uint64_t>(request.seed);
+	const sim::World world(scene, sim::make_rig(scene.rig), seed, request.rate, 1);
+	const auto faults = sim::parse_faults(request.faults, world);
+	for (size_t camera = 0; camera < faults.size(); camera++)
+		settings.cameras[camera].faults = faults[camera];
+	settings.seed = seed;
+}
+
 void say_counts(const gige::Server &server)
 {
 	const char *const names[] = {"left", "right"};
@@ -113,8 +133,6 @@ void say_counts(const gige::Server &server)
 
 void serve_cameras(const Request &request, const sim::Scene &scene, int64_t frames)
 {
-	if (!request.rig.empty())
-		sim::write_text(request.rig, sim::rig_text(sim::make_rig(scene.rig), scene.hit_z));
 	sim::LiveWorld world(scene, static_cast<uint64_t>(request.seed), request.rate, request.truth);
 	gige::ServerSettings settings;
 	settings.cameras = {{"127.0.0.1", "SIML"}, {"127.0.0.2", "SIMR"}};
@@ -125,11 +143,15 @@ void serve_cameras(const Request &request, const sim::Scene &scene, int64_t fram
 	settings.trigger_socket = request.trigger_line;
 	if (!request.miss.empty())
 		inject(request.miss, settings);
+	inject_faults(request, scene, settings);
 	gige::Server server(settings, world);
+	// From here on the cameras can be reached: whoever waits for the rig may come.
+	if (!request.rig.empty())
+		sim::write_text(request.rig, sim::rig_text(sim::make_rig(scene.rig), scene.hit_z));
 	pong::say(pong::format("cameras on 127.0.0.1 (left) and 127.0.0.2 (right), %g pulses a second, scene %s",
 			       request.rate, request.scene.c_str()));
 	server.run(frames);
-	if (!request.miss.empty() || !request.trigger_line.empty())
+	if (!request.miss.empty() || !request.trigger_line.empty() || !request.faults.empty())
 		say_counts(server);
 }
 

@@ -111,7 +111,10 @@ void read_board(Section section, BoardSettings *board)
 	section.integer("rows", &board->rows, 2, 50);
 	section.number("square", &board->square, 0.001, 1);
 	section.list("planes", &board->planes, -10, 50);
+	section.number("plane_y", &board->plane_y, -1, 3);
 	section.integer("tilted", &board->tilted, 0, 1000);
+	section.number("misplaced", &board->misplaced, 0, 0.1);
+	section.number("misturned", &board->misturned, 0, 0.5);
 	section.finish();
 }
 

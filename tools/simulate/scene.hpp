@@ -1,6 +1,7 @@
 // What is to be seen: all settings of the simulated world, read from TOML, and the built-in scenes.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,11 @@ struct BoardSettings {
 	int columns = 9, rows = 6;                         // inner corners
 	double square = 0.025;                             // m
 	std::vector<double> planes = {0.5, 0.8, 1.1, 1.4}; // z of the upright poses, m
-	int tilted = 15;                                   // poses in between
+	double plane_y = NAN; // of the upright board's middle, m; NaN: where the cameras look
+	int tilted = 15;      // poses in between
+	// How wrongly the lying and the upright boards are placed, standard deviations: per axis, m; about each axis,
+	// rad.
+	double misplaced = 0, misturned = 0;
 };
 
 // What is shown, one after another.

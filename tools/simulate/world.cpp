@@ -66,13 +66,31 @@ std::shared_ptr<const Episode> World::at(double time)
 	return nullptr;
 }
 
-double World::end_of(int episodes)
+const Episode &World::add_until(int number)
+{
+	while (added_ < number)
+		add_episode();
+	return *episodes_.back();
+}
+
+double World::end_of(int episodes) const
 {
 	World ahead(scene_, rig_, seed_, rate_, board_frames_);
-	while (ahead.added_ < episodes)
-		ahead.add_episode();
 	const double trailing = scene_.show == Show::board ? 0 : scene_.flights.gap;
-	return ahead.episodes_.back()->end + trailing;
+	return ahead.add_until(episodes).end + trailing;
+}
+
+double World::towards_bounce(int number, double part) const
+{
+	World ahead(scene_, rig_, seed_, rate_, board_frames_);
+	const Episode &episode = ahead.add_until(number);
+	constexpr double STEP = 0.001; // s
+	double time = episode.begin;
+	while (time < episode.end && episode.ball(time).velocity.y() >= 0)
+		time += STEP; // a launch may rise
+	while (time < episode.end && episode.ball(time).velocity.y() < 0)
+		time += STEP;
+	return episode.begin + part * (time - episode.begin);
 }
 
 void World::add_episode()

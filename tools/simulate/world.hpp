@@ -37,10 +37,14 @@ public:
 	// The episode at a time, s; null between episodes. Times may go back by a few episodes only. Any thread.
 	std::shared_ptr<const Episode> at(double time);
 
+	// While flight `number` is under way: this part (0 .. 1) of its time from the launch to its first bounce, s.
+	double towards_bounce(int number, double part) const;
+
 	// When the first `episodes` episodes are over and the world has been empty for a while, s.
-	double end_of(int episodes);
+	double end_of(int episodes) const;
 
 private:
+	const Episode &add_until(int number);
 	void add_episode();
 	void fill_flight(Episode *episode, Random &random, double free_from);
 	void fill_resting(Episode *episode) const;

@@ -1,9 +1,11 @@
 #include "aravis_camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "program.hpp"
+#include "presence.hpp"
+#include "realtime.hpp"
 
 namespace track
 {
@@ -13,6 +15,8 @@ namespace
 
 constexpr int BUFFERS = 64; // of a stream: more than are ever waiting to be tracked, so that it never runs dry
 constexpr int STREAM_PRIORITY = 10;
+constexpr std::chrono::seconds CLOCK_INTERVAL(1); // between comparisons of the clocks
+constexpr int64_t GOOD_CLOCK_NS = 500000;         // error of the first one; pictures of two pulses lie far wider apart
 
 // Aravis' way to report a failure, turned into ours.
 class Fault
@@ -39,14 +43,25 @@ public:
 		return error_ ? error_->message : "no reason given";
 	}
 
-	// Throws where the last call failed.
+	// Throws where the last call failed: Absent where the camera did not answer or is not ours any more.
 	void check(const std::string &camera, const char *what) const
 	{
-		if (error_)
-			throw pong::Failure(camera + ": " + what + ": " + text());
+		if (!error_)
+			return;
+		const std::string sentence = camera + ": " + what + ": " + text();
+		if (error_->domain == ARV_DEVICE_ERROR && is_of_transport(error_->code))
+			throw Absent(sentence);
+		throw pong::Failure(sentence);
 	}
 
 private:
+	static bool is_of_transport(int code)
+	{
+		return code == ARV_DEVICE_ERROR_TIMEOUT || code == ARV_DEVICE_ERROR_NOT_CONNECTED ||
+		       code == ARV_DEVICE_ERROR_TRANSFER_ERROR || code == ARV_DEVICE_ERROR_PROTOCOL_ERROR ||
+		       code == ARV_DEVICE_ERROR_NOT_CONTROLLER;
+	}
+
 	GError *error_ = nullptr;
 };
 
@@ -57,24 +72,28 @@ void on_control_lost(ArvDevice *, std::atomic<bool> *lost)
 
 } // namespace
 
-Camera::Camera(pong_side side, const pong_camera &camera, const CaptureSettings &settings, Receive receive)
-	: side_(side), name_(std::string(side == PONG_LEFT ? "left" : "right") + " camera " + camera.id),
-	  receive_(std::move(receive))
+Camera::Camera(pong_side side, const pong_camera &camera, const CaptureSettings &settings, int number,
+	       CaptureCounts &counts, Receive receive)
+	: side_(side), name_(camera_name(side, camera)), number_(number), width_(camera.width), height_(camera.height),
+	  receive_(std::move(receive)), still_(camera.width, camera.height), counts_(counts)
 {
 	open(camera.id);
-	set_picture(camera);
+	set_picture(camera, settings);
 	set_exposure(settings);
 	set_trigger(settings);
 	set_packets(settings);
 	find_clock();
 	open_stream();
+	start();
+	clock_reader_ = std::make_unique<Ticker>(CLOCK_INTERVAL, [this] { read_clock(); });
 }
 
 Camera::~Camera()
 {
+	clock_reader_.reset();
+	g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), &lost_);
 	if (!lost_)
 		arv_camera_stop_acquisition(camera_.get(), nullptr);
-	g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), &lost_);
 }
 
 void Camera::open(const char *id)
@@ -82,23 +101,23 @@ void Camera::open(const char *id)
 	Fault fault;
 	camera_.reset(arv_camera_new(id, fault));
 	if (!camera_)
-		throw pong::Failure(name_ + ": not found: no GigE Vision camera on any network interface and no USB3 " +
-				    "Vision camera has this address, serial number or id (" + fault.text() +
-				    "; pongeye-track --list shows those that answer)");
+		throw Absent(
+			name_ + ": not found: no GigE Vision camera on any network interface and no USB3 Vision " +
+			"camera has this address, serial number or id (pongeye-track --list shows those that answer)");
 	ArvDevice *device = arv_camera_get_device(camera_.get());
 	// Aravis opens a camera that another program controls, too, and then every setting fails.
 	if (ARV_IS_GV_DEVICE(device) && !arv_gv_device_is_controller(ARV_GV_DEVICE(device)))
-		throw pong::Failure(name_ + ": another program controls it");
+		throw Absent(name_ + ": another program controls it");
 	g_signal_connect(device, "control-lost", G_CALLBACK(on_control_lost), &lost_);
 }
 
 // The calibration holds for the picture that it was made with: any other size is an error.
-void Camera::set_picture(const pong_camera &camera)
+void Camera::set_picture(const pong_camera &camera, const CaptureSettings &settings)
 {
 	Fault fault;
 	arv_camera_set_pixel_format(camera_.get(), ARV_PIXEL_FORMAT_MONO_8, fault);
 	fault.check(name_, "cannot send grey pictures of 8 bits (Mono8)");
-	arv_camera_set_region(camera_.get(), 0, 0, camera.width, camera.height, fault);
+	arv_camera_set_region(camera_.get(), settings.offset_x, settings.offset_y, camera.width, camera.height, fault);
 	const std::string size =
 		pong::format("cannot send %d x %d pixels, the size in rig.toml", camera.width, camera.height);
 	fault.check(name_, size.c_str());
@@ -109,6 +128,14 @@ void Camera::set_picture(const pong_camera &camera)
 		throw pong::Failure(name_ + ": " + size + pong::format(", but %d x %d", width, height));
 }
 
+// Aravis would set the nearest that the camera can, without a word.
+void Camera::check_limits(const Wish &wish) const
+{
+	if (wish.value < wish.least || wish.value > wish.most)
+		throw pong::Failure(pong::format("%s: %s: rig.toml asks for %g %s, and it can %g to %g", name_.c_str(),
+						 wish.what, wish.value, wish.unit, wish.least, wish.most));
+}
+
 // Automatic exposure and gain are switched off where there are any: the ball's brightness must not depend on the rest.
 void Camera::set_exposure(const CaptureSettings &settings)
 {
@@ -117,6 +144,10 @@ void Camera::set_exposure(const CaptureSettings &settings)
 	if (arv_camera_is_exposure_auto_available(camera, nullptr))
 		arv_camera_set_exposure_time_auto(camera, ARV_AUTO_OFF, nullptr);
 	if (settings.exposure > 0) {
+		double least, most;
+		arv_camera_get_exposure_time_bounds(camera, &least, &most, fault);
+		fault.check(name_, "does not tell which exposures it can");
+		check_limits({"exposure", settings.exposure, least * 1e-6, most * 1e-6, "s"});
 		arv_camera_set_exposure_time(camera, settings.exposure * 1e6, fault);
 		fault.check(name_, "cannot set the exposure");
 	}
@@ -126,6 +157,10 @@ void Camera::set_exposure(const CaptureSettings &settings)
 		return;
 	if (arv_camera_is_gain_auto_available(camera, nullptr))
 		arv_camera_set_gain_auto(camera, ARV_AUTO_OFF, nullptr);
+	double least, most;
+	arv_camera_get_gain_bounds(camera, &least, &most, fault);
+	fault.check(name_, "does not tell which gains it can");
+	check_limits({"gain", settings.gain, least, most, "dB"});
 	arv_camera_set_gain(camera, settings.gain, fault);
 	fault.check(name_, "cannot set the gain");
 }
@@ -146,6 +181,9 @@ void Camera::set_trigger(const CaptureSettings &settings)
 	}
 	arv_camera_set_trigger(camera_.get(), settings.trigger.c_str(), fault);
 	fault.check(name_, ("cannot be triggered by " + settings.trigger).c_str());
+	if (settings.falling_edge)
+		arv_camera_set_string(camera_.get(), "TriggerActivation", "FallingEdge", fault);
+	fault.check(name_, "cannot be triggered by a falling edge");
 }
 
 // Large packets cost the host less; the ring of a packet socket would cost 2.4 ms of latency.
@@ -161,15 +199,20 @@ void Camera::set_packets(const CaptureSettings &settings)
 	else
 		arv_camera_gv_auto_packet_size(camera_.get(), fault);
 	fault.check(name_, "cannot set the packet size");
+	if (settings.packet_delay >= 0)
+		arv_camera_gv_set_packet_delay(camera_.get(), std::llround(settings.packet_delay * 1e9), fault);
+	fault.check(name_, "cannot set the delay between packets");
 }
 
 void Camera::find_clock()
 {
 	has_clock_ = arv_camera_is_feature_available(camera_.get(), "TimestampLatch", nullptr) &&
 		     arv_camera_is_feature_available(camera_.get(), "TimestampLatchValue", nullptr);
-	if (has_clock_)
+	for (int i = 0; has_clock_ && i < 10 && clock_error_ns_ > GOOD_CLOCK_NS; i++)
 		read_clock();
-	else
+	if (has_clock_ && !clock_.known())
+		throw Absent(name_ + ": does not answer when asked for the time");
+	if (!has_clock_)
 		pong::say(name_ + ": it has no TimestampLatch: times are those of the pictures' arrival, "
 				  "less the exposure");
 }
@@ -196,6 +239,7 @@ void Camera::read_clock()
 	}
 	const std::lock_guard<std::mutex> lock(clock_mutex_);
 	clock_.add(best);
+	clock_error_ns_ = std::min(clock_error_ns_, best.round_trip_ns() / 2);
 }
 
 // Tuned for the least latency that loses no packet: a missing one is asked for again after 1 ms, at once where later
@@ -213,12 +257,14 @@ void Camera::open_stream()
 	const guint payload = arv_camera_get_payload(camera_.get(), fault);
 	fault.check(name_, "does not tell the size of its pictures");
 	for (int i = 0; i < BUFFERS; i++)
-		arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
+		arv_stream_push_buffer(stream_.get(),
+				       arv_buffer_new_full(payload, nullptr, GINT_TO_POINTER(number_), nullptr));
 }
 
 void Camera::start()
 {
 	Fault fault;
+	last_sign_ns_ = monotonic_ns();
 	arv_camera_start_acquisition(camera_.get(), fault);
 	fault.check(name_, "cannot start");
 }
@@ -242,16 +288,36 @@ void Camera::receive_buffer()
 	ArvBuffer *buffer = arv_stream_pop_buffer(stream_.get());
 	if (!buffer)
 		return;
-	if (arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS) {
-		incomplete_++;
+	const int64_t arrival_ns = monotonic_ns();
+	last_sign_ns_ = arrival_ns;
+	if (!is_whole(buffer)) {
+		counts_.incomplete++;
 		give_back(buffer);
 		return;
 	}
-	const int64_t arrival_ns = monotonic_ns();
+	if (still_.is_repeated(image_of(buffer))) {
+		repeats_++;
+		counts_.repeated++;
+		give_back(buffer);
+		return;
+	}
+	repeats_ = 0;
 	if (!receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
-		late_++;
+		counts_.late++;
 		give_back(buffer);
 	}
+}
+
+// All packets came, and they are a picture of the size that was asked for.
+bool Camera::is_whole(void *buffer) const
+{
+	ArvBuffer *picture = static_cast<ArvBuffer *>(buffer);
+	if (arv_buffer_get_status(picture) != ARV_BUFFER_STATUS_SUCCESS)
+		return false;
+	size_t size = 0;
+	return arv_buffer_get_image_data(picture, &size) && arv_buffer_get_image_width(picture) == width_ &&
+	       arv_buffer_get_image_height(picture) == height_ &&
+	       size >= static_cast<size_t>(width_) * static_cast<size_t>(height_);
 }
 
 int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
@@ -262,14 +328,21 @@ int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
 	return clock_.host_ns(static_cast<int64_t>(arv_buffer_get_timestamp(buffer)));
 }
 
-void make_thread_realtime(int priority)
+std::optional<uint32_t> Camera::address() const
 {
-	static std::once_flag warned;
-	if (!arv_make_thread_realtime(priority))
-		std::call_once(warned, [] {
-			pong::say(
-				"no real-time priority, which this user may not have: under load pictures come later");
-		});
+	ArvDevice *device = arv_camera_get_device(camera_.get());
+	if (!ARV_IS_GV_DEVICE(device))
+		return std::nullopt;
+	GSocketAddress *end = arv_gv_device_get_device_address(ARV_GV_DEVICE(device)); // the device's own
+	char *text = g_inet_address_to_string(g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(end)));
+	const std::optional<uint32_t> address = parse_address(text);
+	g_free(text);
+	return address;
+}
+
+std::string camera_name(pong_side side, const pong_camera &camera)
+{
+	return std::string(side == PONG_LEFT ? "left" : "right") + " camera " + camera.id;
 }
 
 pong_image image_of(void *buffer)
@@ -279,6 +352,11 @@ pong_image image_of(void *buffer)
 	const void *pixels = arv_buffer_get_image_data(picture, &size);
 	const int width = arv_buffer_get_image_width(picture), height = arv_buffer_get_image_height(picture);
 	return {static_cast<const uint8_t *>(pixels), width, height, width};
+}
+
+int camera_of(void *buffer)
+{
+	return GPOINTER_TO_INT(arv_buffer_get_user_data(static_cast<ArvBuffer *>(buffer)));
 }
 
 void free_buffer(void *buffer)

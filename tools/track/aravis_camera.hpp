@@ -6,12 +6,16 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "capture_settings.hpp"
 #include "clock.hpp"
 #include "pairing.hpp"
 #include "pongeye.h"
+#include "program.hpp"
+#include "still.hpp"
+#include "ticker.hpp"
 
 namespace track
 {
@@ -24,6 +28,16 @@ struct ObjectDeleter {
 };
 template<class T> using Object = std::unique_ptr<T, ObjectDeleter>;
 
+// The camera is not there, or not to be had just now: it may come.
+struct Absent : pong::Failure {
+	using pong::Failure::Failure;
+};
+
+// Pictures that came and were not taken.
+struct CaptureCounts {
+	std::atomic<int64_t> incomplete{0}, late{0}, repeated{0};
+};
+
 class Camera
 {
 public:
@@ -31,31 +45,42 @@ public:
 	// given back. Returns false where it cannot be taken: then it is dropped.
 	using Receive = std::function<bool(pong_side side, const Picture &picture)>;
 
-	// Finds the camera and sets it up. Throws pong::Failure.
-	Camera(pong_side side, const pong_camera &camera, const CaptureSettings &settings, Receive receive);
+	// Finds the camera, sets it up, and starts it. `number`: of this camera among all that were opened, which its
+	// buffers bear. `counts` is added to. Throws Absent, or pong::Failure where the camera cannot do what the
+	// settings ask for.
+	Camera(pong_side side, const pong_camera &camera, const CaptureSettings &settings, int number,
+	       CaptureCounts &counts, Receive receive);
 
-	// Ends the stream: from then on nothing is received. Buffers not given back are to be freed.
+	// Ends the stream: from then on nothing is received. Buffers not given back are to be freed. Of a camera that
+	// was given up nothing is asked any more but its control back.
 	~Camera();
 
 	Camera(const Camera &) = delete;
 	Camera &operator=(const Camera &) = delete;
 
-	void start();
+	void give_up()
+	{
+		lost_ = true;
+	}
 
 	void give_back(void *buffer);
 
-	// Compare the camera's clock with the host's; does nothing where the camera cannot.
-	void read_clock();
-
-	// The camera no longer answers, or another program has taken it.
+	// Aravis says that the camera no longer answers, or that another program has taken it.
 	bool lost() const
 	{
 		return lost_;
 	}
 
-	int64_t incomplete() const
+	// When the last picture came, whole or not; at first when the camera started. By monotonic_ns().
+	int64_t last_sign_ns() const
 	{
-		return incomplete_;
+		return last_sign_ns_;
+	}
+
+	// Its last pictures were one and the same.
+	bool frozen() const
+	{
+		return repeats_ > 0;
 	}
 
 	int64_t exposure_ns() const
@@ -63,21 +88,22 @@ public:
 		return exposure_ns_;
 	}
 
-	// Pictures that were not taken.
-	int64_t late() const
-	{
-		return late_;
-	}
-
-	// "left camera 192.168.1.10"
-	const std::string &name() const
-	{
-		return name_;
-	}
+	// Its IPv4 address; none of a USB3 Vision camera.
+	std::optional<uint32_t> address() const;
 
 private:
 	void open(const char *id);
-	void set_picture(const pong_camera &camera);
+	void start();
+	void read_clock();
+	// A setting, and between what the camera can have it.
+	struct Wish {
+		const char *what;
+		double value, least, most;
+		const char *unit;
+	};
+
+	void set_picture(const pong_camera &camera, const CaptureSettings &settings);
+	void check_limits(const Wish &wish) const;
 	void set_exposure(const CaptureSettings &settings);
 	void set_trigger(const CaptureSettings &settings);
 	void set_packets(const CaptureSettings &settings);
@@ -85,10 +111,13 @@ private:
 	void open_stream();
 	static void on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *buffer);
 	void receive_buffer();
+	bool is_whole(void *buffer) const;
 	int64_t exposure_begin_ns(ArvBuffer *buffer);
 
 	pong_side side_;
 	std::string name_;
+	int number_;
+	int width_, height_;
 	Receive receive_;
 	Object<ArvCamera> camera_;
 	Object<ArvStream> stream_;
@@ -96,15 +125,23 @@ private:
 	bool has_clock_ = false;
 	std::mutex clock_mutex_;
 	ClockFit clock_;
+	int64_t clock_error_ns_ = INT64_MAX; // at most, of the best reading
 	std::atomic<bool> lost_{false};
-	std::atomic<int64_t> incomplete_{0}, late_{0};
+	std::atomic<int64_t> last_sign_ns_{0};
+	std::atomic<int> repeats_{0};
+	Still still_;
+	CaptureCounts &counts_;
+	std::unique_ptr<Ticker> clock_reader_;
 };
 
-// Real-time priority for the calling thread; where the user may not have it, it is said once, and all goes on.
-void make_thread_realtime(int priority);
+// "left camera 192.168.1.10"
+std::string camera_name(pong_side side, const pong_camera &camera);
 
 // What a picture's buffer holds.
 pong_image image_of(void *buffer);
+
+// The number of the camera that a buffer came from.
+int camera_of(void *buffer);
 
 // For a buffer whose camera has ended.
 void free_buffer(void *buffer);

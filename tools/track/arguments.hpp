@@ -9,10 +9,17 @@ namespace track
 {
 
 struct Arguments {
-	std::string rig, images, lcm_url, output;
+	std::string rig, images, replay, lcm_url, output, record;
 	int profile = PONG_BEST;
-	double fps = 0, seconds = 0; // 0: not given
+	int record_what = 0;                          // RecordWhat
+	double fps = 0, seconds = 0, record_last = 0; // 0: not given
 	bool publish = false, live = false, list = false;
+	bool profile_given = false;
+
+	bool from_cameras() const
+	{
+		return images.empty() && replay.empty();
+	}
 };
 
 // Returns false where --help or --version was all that was asked for. Throws pong::UsageError.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <utility>
 
 #include "aravis_camera.hpp"
@@ -14,6 +15,8 @@
 #include "fifo.hpp"
 #include "pairing.hpp"
 #include "program.hpp"
+#include "realtime.hpp"
+#include "seat.hpp"
 
 namespace track
 {
@@ -23,11 +26,10 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr auto PATIENCE = 100ms;                    // how long next() waits
-constexpr auto CLOCK_INTERVAL = 1s;                 // between comparisons of the clocks
-constexpr int64_t SILENCE_NS = INT64_C(2000000000); // without pictures, then the user is told
-constexpr int TRACKING_PRIORITY = 9;                // below the cameras' threads
-constexpr size_t QUEUE = 32;                        // pictures of both cameras: 0.15 s at 110 Hz
+constexpr auto PATIENCE = 20ms;                       // how long next() waits
+constexpr int64_t SILENCE_NS = INT64_C(2000000000);   // without pictures, then the user is told
+constexpr double OVERDUE = 0.18, OVERDUE_PERIODS = 3; // s, and periods: a picture that the others show to be missing
+constexpr size_t QUEUE = 32;                          // pictures of both cameras: 0.15 s at 110 Hz
 
 // Hands pictures from the cameras' threads to the one that tracks.
 class Mailbox
@@ -67,37 +69,6 @@ private:
 	Fifo<Letter, QUEUE> letters_;
 };
 
-// Calls a function again and again in a thread of its own.
-class Ticker
-{
-public:
-	template<class Function>
-	Ticker(std::chrono::milliseconds interval, Function function)
-		: thread_([this, interval, function] {
-			  std::unique_lock<std::mutex> lock(mutex_);
-			  while (!wake_.wait_for(lock, interval, [this] { return stop_; }))
-				  function();
-		  })
-	{
-	}
-
-	~Ticker()
-	{
-		{
-			const std::lock_guard<std::mutex> lock(mutex_);
-			stop_ = true;
-		}
-		wake_.notify_one();
-		thread_.join();
-	}
-
-private:
-	std::mutex mutex_;
-	std::condition_variable wake_;
-	bool stop_ = false;
-	std::thread thread_;
-};
-
 class CameraSource : public Source
 {
 public:
@@ -106,25 +77,24 @@ public:
 		  hear_(std::move(hear))
 	{
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-			cameras_[side] = std::make_unique<Camera>(side, rig.camera[side], settings,
-								  [this](pong_side from, const Picture &picture) {
-									  return mailbox_.put({from, picture});
-								  });
-		for (const auto &camera : cameras_)
-			camera->start();
-		heard_ns_[PONG_LEFT] = heard_ns_[PONG_RIGHT] = monotonic_ns();
-		clock_reader_ = std::make_unique<Ticker>(CLOCK_INTERVAL, [this] {
-			for (const auto &camera : cameras_)
-				camera->read_clock();
-		});
+			seats_[side] = std::make_unique<Seat>(side, rig.camera[side], settings,
+							      [this](pong_side from, const Picture &picture) {
+								      return mailbox_.put({from, picture});
+							      });
+		const double overdue = settings.rate > 0 ? std::max(OVERDUE, OVERDUE_PERIODS / settings.rate) : OVERDUE;
+		overdue_ns_ = std::llround(overdue * 1e9);
+		heard_ns_ = monotonic_ns();
 		make_thread_realtime(TRACKING_PRIORITY);
+		lock_memory();
 	}
 
 	// First the cameras end, so that nothing comes any more; then what is still here is freed.
 	~CameraSource() override
 	{
-		clock_reader_.reset();
-		end_cameras();
+		for (const auto &seat : seats_)
+			seat->begin_to_end();
+		for (auto &seat : seats_)
+			seat.reset();
 		give_back_pair();
 		pairing_.clear();
 		for (Mailbox::Letter letter; mailbox_.take(letter, 0ms);)
@@ -148,13 +118,19 @@ public:
 		return Next::PAIR;
 	}
 
+	bool is_live() const override
+	{
+		return true;
+	}
+
 	Dropped dropped() const override
 	{
 		Dropped dropped;
 		dropped.unpaired = pairing_.unpaired();
-		for (const auto &camera : cameras_) {
-			dropped.incomplete += camera->incomplete();
-			dropped.late += camera->late();
+		for (const auto &seat : seats_) {
+			dropped.incomplete += seat->counts().incomplete;
+			dropped.late += seat->counts().late;
+			dropped.repeated += seat->counts().repeated;
 		}
 		return dropped;
 	}
@@ -164,15 +140,12 @@ public:
 		return {numbering_.heard(), {numbering_.missed(PONG_LEFT), numbering_.missed(PONG_RIGHT)}};
 	}
 
-private:
-	// Both at once: a lost camera is waited for by Aravis, for 6 s.
-	void end_cameras()
+	CameraHealth health(pong_side side) const override
 	{
-		std::thread right([this] { cameras_[PONG_RIGHT].reset(); });
-		cameras_[PONG_LEFT].reset();
-		right.join();
+		return {seats_[side]->state(), seats_[side]->losses()};
 	}
 
+private:
 	// Wait for one more picture.
 	void receive()
 	{
@@ -180,44 +153,61 @@ private:
 		const bool received = mailbox_.take(letter, PATIENCE);
 		hear_pulses();
 		if (received) {
-			heard_ns_[letter.side] = monotonic_ns();
-			told_[letter.side] = false;
+			heard_ns_ = monotonic_ns();
+			told_ = false;
 			numbering_.see(letter.side, exposure_begin(letter.side, letter.picture.utime));
 			pairing_.push(letter.side, letter.picture);
 		}
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-			check_camera(side);
+			seats_[side]->check();
+		look_after_cameras();
+		look_after_trigger();
 	}
 
 	void hear_pulses()
 	{
-		for (TriggerPulse pulse; hear_ && hear_(pulse);)
+		for (TriggerPulse pulse; hear_ && hear_(pulse);) {
 			numbering_.hear(pulse);
+			pulse_ns_ = monotonic_ns();
+		}
 		numbering_.pass_time(unix_ns() / 1000);
 	}
 
 	// The trigger's edge, for a picture whose middle of the exposure was at `utime`.
 	int64_t exposure_begin(pong_side side, int64_t utime) const
 	{
-		return utime - cameras_[side]->exposure_ns() / 2000;
+		return utime - seats_[side]->exposure_ns() / 2000;
 	}
 
-	// Whether pictures still come, and if not, why.
-	void check_camera(pong_side side)
+	// A camera whose pictures stay away while the other's come, or while pulses are heard of. Where both stay away
+	// the trigger has stopped.
+	void look_after_cameras()
 	{
-		const Camera &camera = *cameras_[side];
-		if (camera.lost())
-			throw pong::Failure(camera.name() + ": lost: it no longer answers");
-		if (told_[side] || monotonic_ns() - heard_ns_[side] < SILENCE_NS)
+		const std::optional<int64_t> signs[] = {seats_[PONG_LEFT]->last_sign_ns(),
+							seats_[PONG_RIGHT]->last_sign_ns()};
+		for (const pong_side side : {PONG_LEFT, PONG_RIGHT}) {
+			const std::optional<int64_t> own = signs[side], other = signs[1 - side];
+			if (own && std::max(other.value_or(0), pulse_ns_) - *own > overdue_ns_)
+				seats_[side]->suspect();
+		}
+	}
+
+	void look_after_trigger()
+	{
+		const bool ready = seats_[PONG_LEFT]->state() == CameraState::STREAMING &&
+				   seats_[PONG_RIGHT]->state() == CameraState::STREAMING;
+		if (!ready)
+			heard_ns_ = monotonic_ns();
+		if (told_ || monotonic_ns() - heard_ns_ < SILENCE_NS)
 			return;
-		pong::say(camera.name() + ": ready, but no whole picture has come for 2 s: does the trigger run?");
-		told_[side] = true;
+		pong::say("both cameras are ready, but no whole picture has come for 2 s: does the trigger run?");
+		told_ = true;
 	}
 
 	void give_back(pong_side side, const Picture &picture)
 	{
-		if (cameras_[side])
-			cameras_[side]->give_back(picture.buffer);
+		if (seats_[side])
+			seats_[side]->give_back(picture.buffer);
 		else
 			free_buffer(picture.buffer);
 	}
@@ -230,16 +220,17 @@ private:
 		has_pair_ = false;
 	}
 
-	Mailbox mailbox_;                                // outlives the cameras, which put pictures into it
-	std::array<std::unique_ptr<Camera>, 2> cameras_; // by pong_side
+	Mailbox mailbox_;                            // outlives the cameras, which put pictures into it
+	std::array<std::unique_ptr<Seat>, 2> seats_; // by pong_side
 	Pairing pairing_;
 	HearPulse hear_;
 	PulseNumbering numbering_;
 	PicturePair pair_; // lent to the caller
 	bool has_pair_ = false;
-	int64_t heard_ns_[2];           // by pong_side: when the last picture came
-	bool told_[2] = {false, false}; // and whether the user knows that none comes
-	std::unique_ptr<Ticker> clock_reader_;
+	int64_t overdue_ns_;
+	int64_t pulse_ns_ = 0; // when the last pulse was heard of
+	int64_t heard_ns_;     // when the last picture came,
+	bool told_ = false;    // and whether the user knows that none comes
 };
 
 void check_ids(const pong_rig &rig)

@@ -48,6 +48,31 @@ public:
 		return *value;
 	}
 
+	// Whether it is the second of two words.
+	bool second_of(const char *first, const char *second) const
+	{
+		const std::optional<std::string> value = node_.value<std::string>();
+		if (!value || (*value != first && *value != second))
+			fail(pong::format("must be \"%s\" or \"%s\"", first, second));
+		return *value == second;
+	}
+
+	// A place on a sensor.
+	void place_on_sensor(int &x, int &y) const
+	{
+		const toml::array *pair = node_.as_array();
+		if (!pair || pair->size() != 2)
+			fail("must be two whole numbers, [x, y]");
+		int *const target[] = {&x, &y};
+		for (size_t i = 0; i < 2; i++) {
+			const std::optional<int64_t> value =
+				(*pair)[i].is_integer() ? (*pair)[i].value<int64_t>() : std::nullopt;
+			if (!value || *value < 0 || *value > 65535)
+				fail("must be two whole numbers, [x, y], between 0 and 65535 px");
+			*target[i] = static_cast<int>(*value);
+		}
+	}
+
 private:
 	[[noreturn]] void fail(const std::string &what) const
 	{
@@ -71,11 +96,18 @@ void set(CaptureSettings &settings, const std::string &path, const toml::key &ke
 		settings.trigger = trigger == "none" ? "" : trigger;
 	} else if (key == "rate") {
 		settings.rate = entry.number(0.1, 10000, "Hz");
+	} else if (key == "edge") {
+		settings.falling_edge = entry.second_of("rising", "falling");
+	} else if (key == "offset") {
+		entry.place_on_sensor(settings.offset_x, settings.offset_y);
 	} else if (key == "packet_size") {
 		settings.packet_size = entry.integer(576, 16000, "bytes");
+	} else if (key == "packet_delay") {
+		settings.packet_delay = entry.number(0, 0.01, "s");
 	} else {
 		throw pong::Failure(place(path, key.source()) + ": unknown key '" + std::string(key.str()) +
-				    "' in [capture]: there are exposure, gain, trigger, rate, packet_size");
+				    "' in [capture]: there are exposure, gain, trigger, edge, rate, offset, "
+				    "packet_size, packet_delay");
 	}
 }
 

@@ -4,8 +4,13 @@
 //     exposure = 0.002    # s; without it: what the camera is set to
 //     gain = 6.0          # dB; without it: what the camera is set to
 //     trigger = "Line1"   # the input that fires the camera; "none": it runs by itself, at `rate`
+//     edge = "rising"     # of the input, or "falling"
 //     rate = 110.0        # pictures a second; without it: learnt from the pictures
+//     offset = [0, 0]     # px: where on the sensor the picture begins, whose size is that of [left] and [right]
 //     packet_size = 9000  # bytes; without it: the largest that comes through
+//     packet_delay = 0    # s between packets, where both cameras share a cable; without it: what the camera is set to
+//
+// Pixels are grey, of 8 bits (Mono8): nothing else can be tracked.
 #pragma once
 
 #include <string>
@@ -18,8 +23,11 @@ struct CaptureSettings {
 	bool has_gain = false;         // whether
 	double gain = 0;               // dB, is given
 	std::string trigger = "Line1"; // empty: no trigger
+	bool falling_edge = false;     // of the trigger, that begins the exposure
 	double rate = 0;               // Hz; 0: not given
-	int packet_size = 0;           // bytes; 0: not given
+	int offset_x = 0, offset_y = 0;
+	int packet_size = 0;      // bytes; 0: not given
+	double packet_delay = -1; // s; below 0: not given
 };
 
 // Throws pong::Failure with file, line and column. A file without [capture] has the values above.

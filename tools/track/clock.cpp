@@ -10,8 +10,9 @@ namespace track
 namespace
 {
 
-// Between readings a second apart a poor crystal (100 ppm) drifts by 0.1 ms; a busy host delays by a few.
-constexpr double CONTRADICTION_NS = 20e6;
+// The device's clock was latched between the two looks at the host's, however busy that is. A line that says otherwise
+// is wrong by its own readings' error, and by what a poor crystal drifts (100 ppm, a few seconds) before that is known.
+constexpr double CONTRADICTION_NS = 0.5e6;
 
 // What is known of a crystal's drift before it is measured.
 constexpr double DRIFT_SIGMA = 50e-6;
@@ -38,9 +39,10 @@ int64_t unix_ns()
 void ClockFit::add(const ClockReading &reading)
 {
 	const int64_t host_now = reading.before_ns + reading.round_trip_ns() / 2;
-	const double limit = CONTRADICTION_NS + reading.round_trip_ns();
+	const double limit = CONTRADICTION_NS + static_cast<double>(reading.round_trip_ns() + fastest_ns_) / 2;
 	if (known() && std::abs(static_cast<double>(host_ns(reading.device_ns) - host_now)) > limit)
 		count_ = oldest_ = 0;
+	fastest_ns_ = known() ? std::min(fastest_ns_, reading.round_trip_ns()) : reading.round_trip_ns();
 	if (!known()) {
 		first_device_ns_ = reading.device_ns;
 		first_difference_ns_ = host_now - reading.device_ns;

@@ -62,6 +62,7 @@ private:
 
 	Sample samples_[CAPACITY];
 	size_t count_ = 0, oldest_ = 0;
+	int64_t fastest_ns_ = 0; // round trip
 	int64_t first_device_ns_ = 0, first_difference_ns_ = 0;
 	double mean_device_ = 0, offset_ = 0, drift_ = 0;
 };

@@ -1,4 +1,5 @@
-// pongeye-track: watch two cameras, or a folder of pictures, and say where the ball is and where it can be hit.
+// pongeye-track: watch two cameras, a folder of pictures, or a recording, and say where the ball is and where it can be
+// hit.
 //
 // track_ball() is the loop; all else opens what it reads from and writes to.
 #include <cmath>
@@ -14,8 +15,12 @@
 #include "output.hpp"
 #include "program.hpp"
 #include "publisher.hpp"
+#include "recording.hpp"
+#include "replay.hpp"
+#include "setup.hpp"
 #include "status.hpp"
 #include "trigger_listener.hpp"
+#include "two_eyes.hpp"
 
 namespace track
 {
@@ -33,6 +38,7 @@ using Eye = std::unique_ptr<pong_eye, EyeDeleter>;
 
 // Where the results go; whatever is not wanted is null.
 struct Sinks {
+	std::unique_ptr<Recording> recording; // outlives the publisher, which records too
 	std::unique_ptr<Publisher> publisher;
 	std::unique_ptr<Output> output;
 	std::unique_ptr<Live> live;
@@ -45,35 +51,34 @@ struct Session {
 	int64_t end_ns; // by monotonic_ns()
 };
 
-// With the profile's settings, and rig.toml's where it has its own.
-Eye open_eye(const pong_rig &rig, const Arguments &arguments)
+Eye open_eye(const Setup &setup)
 {
-	pong_settings settings;
-	pong_settings_defaults(static_cast<pong_profile>(arguments.profile), &settings);
 	pong_error error;
-	if (pong_settings_load(arguments.rig.c_str(), &settings, &error) < 0)
-		throw pong::Failure(error.text);
-	Eye eye(pong_eye_new(&rig, &settings, &error));
+	Eye eye(pong_eye_new(&setup.rig, &setup.settings, &error));
 	if (!eye)
 		throw pong::Failure(error.text);
 	return eye;
 }
 
-pong_rig load_rig(const std::string &path)
-{
-	pong_rig rig;
-	pong_error error;
-	if (pong_rig_load(path.c_str(), &rig, &error) < 0)
-		throw pong::Failure(error.text);
-	return rig;
-}
-
 // The trigger is listened to on the bus that is published on.
 std::unique_ptr<TriggerListener> open_listener(const Arguments &arguments, const Sinks &sinks)
 {
-	if (!arguments.images.empty() || !sinks.publisher || !TriggerListener::can_hear(sinks.publisher->url()))
+	if (!arguments.from_cameras() || !sinks.publisher || !TriggerListener::can_hear(sinks.publisher->url()))
 		return nullptr;
 	return std::make_unique<TriggerListener>(sinks.publisher->url());
+}
+
+std::unique_ptr<Replay> open_replay(const Arguments &arguments)
+{
+	return arguments.replay.empty() ? nullptr : std::make_unique<Replay>(arguments.replay);
+}
+
+// A recording has the rig and the profile that it was made with, where the user names no others.
+Setup open_setup(const Arguments &arguments, const Replay *replay)
+{
+	const RigText text = arguments.rig.empty() ? replay->rig() : read_rig_text(arguments.rig);
+	const bool recorded = replay && !arguments.profile_given;
+	return make_setup(text, recorded ? replay->profile() : static_cast<pong_profile>(arguments.profile));
 }
 
 std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &rig, TriggerListener *listener)
@@ -86,11 +91,14 @@ std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &
 	return open_cameras(rig, settings, [listener](TriggerPulse &pulse) { return listener->take(pulse); });
 }
 
-Sinks open_sinks(const Arguments &arguments)
+Sinks open_sinks(const Arguments &arguments, const Setup &setup)
 {
 	Sinks sinks;
-	if (arguments.publish)
-		sinks.publisher = std::make_unique<Publisher>(arguments.lcm_url);
+	const bool recorded = !arguments.record.empty();
+	if (arguments.publish || recorded) // what nobody is to hear is recorded all the same
+		sinks.publisher = std::make_unique<Publisher>(arguments.publish ? arguments.lcm_url : "memq://");
+	if (recorded)
+		sinks.recording = std::make_unique<Recording>(arguments, setup, *sinks.publisher);
 	if (!arguments.output.empty())
 		sinks.output = std::make_unique<Output>(arguments.output);
 	if (arguments.live)
@@ -101,13 +109,6 @@ Sinks open_sinks(const Arguments &arguments)
 int64_t end_after(double seconds)
 {
 	return seconds > 0 ? monotonic_ns() + std::llround(seconds * 1e9) : INT64_MAX;
-}
-
-void look(pong_eye *eye, const StereoPair &pair, pong_sight &sight)
-{
-	pong_error error;
-	if (pong_eye_push(eye, pair.utime, pair.frame, &pair.left, &pair.right, &sight, &error) < 0)
-		throw pong::Failure(pong::format("pair %lld: %s", static_cast<long long>(pair.frame), error.text));
 }
 
 // Publishing comes first: somebody swings at it.
@@ -121,6 +122,8 @@ void deliver(const StereoPair &pair, const pong_sight &sight, Session &session)
 		sinks.output->write(pair, sight);
 	if (sinks.live)
 		sinks.live->see(sight);
+	if (sinks.recording)
+		sinks.recording->add(pair, sight);
 }
 
 // What time brings, whether pairs come or not.
@@ -129,13 +132,18 @@ void keep_time(const Source &source, Session &session)
 	const Sinks &sinks = session.sinks;
 	Status &status = session.status;
 	const int64_t now_ns = monotonic_ns();
+	const std::string warning = status.rig_watch().warning();
+	if (!warning.empty())
+		pong::say(warning);
 	if (status.second_over(now_ns)) {
-		status.close_second(now_ns, source.dropped(), source.pulses());
+		status.close_second(now_ns, source);
 		if (sinks.publisher)
 			sinks.publisher->publish(status.report());
 	}
 	if (sinks.live)
 		sinks.live->draw(status.report(), now_ns);
+	if (sinks.recording)
+		sinks.recording->listen();
 	if (now_ns >= session.end_ns)
 		pong::request_stop();
 }
@@ -146,9 +154,10 @@ void track_ball(Source &source, Session &session)
 	StereoPair pair;
 	pong_sight sight;
 	Next next;
+	TwoEyes eyes(session.eye.get(), source.is_live() ? TRACKING_PRIORITY : 0);
 	while (!pong::stop_requested() && (next = source.next(pair)) != Next::END) {
 		if (next == Next::PAIR) {
-			look(session.eye.get(), pair, sight);
+			eyes.look(pair, sight);
 			deliver(pair, sight, session);
 		}
 		keep_time(source, session);
@@ -164,16 +173,19 @@ int run(int argc, char **argv)
 		list_cameras();
 		return 0;
 	}
-	const pong_rig rig = load_rig(arguments.rig);
-	Eye eye = open_eye(rig, arguments);
-	Sinks sinks = open_sinks(arguments);
+	std::unique_ptr<Replay> replay = open_replay(arguments);
+	const Setup setup = open_setup(arguments, replay.get());
+	Eye eye = open_eye(setup);
+	Sinks sinks = open_sinks(arguments, setup);
 	const std::unique_ptr<TriggerListener> listener = open_listener(arguments, sinks);
-	const std::unique_ptr<Source> source = open_source(arguments, rig, listener.get());
+	std::unique_ptr<Source> source = std::move(replay);
+	if (!source)
+		source = open_source(arguments, setup.rig, listener.get());
 	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
 	track_ball(*source, session);
 	session.sinks.live.reset();
-	pong::say(session.status.summary(source->dropped(), source->pulses()));
-	return 0;
+	pong::say(session.status.summary(*source));
+	return session.sinks.recording && !session.sinks.recording->finish();
 }
 
 } // namespace

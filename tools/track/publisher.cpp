@@ -11,6 +11,7 @@
 
 #include "clock.hpp"
 #include "program.hpp"
+#include "recorder.hpp"
 
 namespace track
 {
@@ -73,10 +74,15 @@ Publisher::Publisher(const std::string &url) : url_(url_or_default(url))
 	prediction_.path_position.reserve(PONG_PATH_CAPACITY);
 }
 
-template<class Message> void Publisher::send(const char *channel, const Message &message)
+// pair_utime: of the pair that it tells of; 0: of none.
+template<class Message> void Publisher::send(const char *channel, const Message &message, int64_t pair_utime)
 {
-	if (lcm_->publish(channel, &message) != 0)
+	encoded_.resize(static_cast<size_t>(message.getEncodedSize()));
+	const int size = message.encode(encoded_.data(), 0, static_cast<int>(encoded_.size()));
+	if (lcm_->publish(channel, encoded_.data(), static_cast<unsigned>(size)) != 0)
 		throw pong::Failure(std::string("LCM cannot publish on ") + channel + ": " + strerror(errno));
+	if (recorder_)
+		recorder_->add_message(channel, pair_utime, encoded_.data(), encoded_.size());
 }
 
 namespace
@@ -136,7 +142,7 @@ void Publisher::publish(const pong_sight &sight)
 	if (!sight.has_ball)
 		return;
 	fill(sight.ball, ball_);
-	send("PONGEYE_BALL", ball_);
+	send("PONGEYE_BALL", ball_, ball_.utime);
 	if (!sight.has_prediction)
 		return;
 	prediction_.utime = sight.ball.utime;
@@ -144,7 +150,7 @@ void Publisher::publish(const pong_sight &sight)
 	prediction_.observations = sight.observations;
 	fill(sight.prediction, prediction_);
 	fill_path(sight.prediction, prediction_);
-	send("PONGEYE_PREDICTION", prediction_);
+	send("PONGEYE_PREDICTION", prediction_, prediction_.utime);
 }
 
 void Publisher::publish(const StatusReport &report)
@@ -159,6 +165,14 @@ void Publisher::publish(const StatusReport &report)
 	status_.rejected = report.outcomes[PONG_REJECTED];
 	status_.missed_left = report.missed_left;
 	status_.missed_right = report.missed_right;
+	status_.unpaired = report.causes.unpaired;
+	status_.incomplete = report.causes.incomplete;
+	status_.late = report.causes.late;
+	status_.repeated = report.causes.repeated;
+	status_.camera_left = static_cast<int8_t>(report.cameras[PONG_LEFT].state);
+	status_.camera_right = static_cast<int8_t>(report.cameras[PONG_RIGHT].state);
+	status_.losses_left = report.cameras[PONG_LEFT].losses;
+	status_.losses_right = report.cameras[PONG_RIGHT].losses;
 	status_.pair_rate = report.pair_rate;
 	status_.ball_rate = report.ball_rate;
 	status_.latency_median = report.latency_median;
@@ -166,7 +180,10 @@ void Publisher::publish(const StatusReport &report)
 	status_.latency_max = report.latency_max;
 	status_.epipolar_mean = report.epipolar_mean;
 	status_.epipolar_rms = report.epipolar_rms;
-	send("PONGEYE_STATUS", status_);
+	status_.rig_offset = report.rig.mean;
+	status_.rig_offset_sigma = report.rig.sigma;
+	status_.rig_knocked = report.rig.knocked;
+	send("PONGEYE_STATUS", status_, 0);
 }
 
 } // namespace track

@@ -4,6 +4,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "pongeye.h"
 #include "pongeye/ball_t.hpp"
@@ -13,6 +14,8 @@
 
 namespace track
 {
+
+class Recorder;
 
 class Publisher
 {
@@ -25,6 +28,12 @@ public:
 
 	void publish(const StatusReport &report);
 
+	// Record what is published from now on. The recorder is the caller's, and outlives this.
+	void record_to(Recorder &recorder)
+	{
+		recorder_ = &recorder;
+	}
+
 	// LCM's, as chosen.
 	const std::string &url() const
 	{
@@ -32,10 +41,12 @@ public:
 	}
 
 private:
-	template<class Message> void send(const char *channel, const Message &message);
+	template<class Message> void send(const char *channel, const Message &message, int64_t pair_utime);
 
 	std::string url_;
 	std::unique_ptr<lcm::LCM> lcm_;
+	Recorder *recorder_ = nullptr;
+	std::vector<uint8_t> encoded_;
 	pongeye::ball_t ball_;
 	pongeye::prediction_t prediction_;
 	pongeye::status_t status_;

@@ -1,4 +1,4 @@
-// Where stereo pairs come from: a folder of pictures, or two cameras.
+// Where stereo pairs come from: two cameras, a folder of pictures, or a recording.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,26 @@ struct Dropped {
 	int64_t unpaired = 0;   // no picture of the other camera belongs to it
 	int64_t incomplete = 0; // packets were lost on the way
 	int64_t late = 0;       // came while too many were still waiting
+	int64_t repeated = 0;   // the same picture once more: the camera is frozen
 
 	int64_t total() const
 	{
-		return unpaired + incomplete + late;
+		return unpaired + incomplete + late + repeated;
 	}
+};
+
+// How a camera is. The numbers are those of PONGEYE_STATUS.
+enum class CameraState {
+	NONE = 0,      // the pictures come from elsewhere
+	ABSENT = 1,    // it is waited for
+	STREAMING = 2, // ready: pictures come, or will with the trigger
+	QUIET = 3,     // it answers, but sends no picture while the trigger runs
+	FROZEN = 4     // it sends the same picture again and again
+};
+
+struct CameraHealth {
+	CameraState state = CameraState::NONE;
+	int64_t losses = 0; // how often it was lost
 };
 
 // Pulses of the trigger, where it is heard, and those of which a camera's picture did not come.
@@ -44,9 +59,20 @@ public:
 	// Wait for the next pair, but not for ever: where none comes, NOTHING_YET lets the caller do something else.
 	virtual Next next(StereoPair &pair) = 0;
 
+	// Whether its pairs come when they come: then whoever looks at them is in a hurry.
+	virtual bool is_live() const
+	{
+		return false;
+	}
+
 	virtual Dropped dropped() const = 0;
 
 	virtual Pulses pulses() const
+	{
+		return {};
+	}
+
+	virtual CameraHealth health(pong_side) const
 	{
 		return {};
 	}

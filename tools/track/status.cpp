@@ -33,6 +33,7 @@ void Status::count(const pong_sight &sight, double latency_s)
 	second_.add(latency_s);
 	run_.add(latency_s);
 	epipolar_[epipolar_count_++ % EPIPOLAR_BALLS] = sight.ball.epipolar_distance;
+	rig_watch_.see(sight.ball);
 }
 
 bool Status::second_over(int64_t now_ns) const
@@ -40,12 +41,15 @@ bool Status::second_over(int64_t now_ns) const
 	return now_ns - begin_ns_ >= SECOND_NS;
 }
 
-void Status::close_second(int64_t now_ns, const Dropped &dropped, const Pulses &pulses)
+void Status::close_second(int64_t now_ns, const Source &source)
 {
+	const Pulses pulses = source.pulses();
+	report_.causes = source.dropped();
+	report_.cameras = {source.health(PONG_LEFT), source.health(PONG_RIGHT)};
 	const double seconds = static_cast<double>(now_ns - begin_ns_) / SECOND_NS;
 	const int64_t balls = outcomes_[PONG_SEEN];
 	report_.pairs = pairs_;
-	report_.dropped = drops_of(dropped, outcomes_[PONG_OUT_OF_ORDER]);
+	report_.dropped = drops_of(report_.causes, outcomes_[PONG_OUT_OF_ORDER]);
 	report_.missed_left = pulses.missed[PONG_LEFT];
 	report_.missed_right = pulses.missed[PONG_RIGHT];
 	report_.outcomes = outcomes_;
@@ -55,6 +59,7 @@ void Status::close_second(int64_t now_ns, const Dropped &dropped, const Pulses &
 	report_.latency_p99 = second_.percentile(0.99);
 	report_.latency_max = second_.max();
 	measure_epipolar();
+	report_.rig = rig_watch_.offset();
 	second_.clear();
 	pairs_before_ = pairs_;
 	balls_before_ = balls;
@@ -74,8 +79,10 @@ void Status::measure_epipolar()
 	report_.epipolar_rms = std::sqrt(squares / balls);
 }
 
-std::string Status::summary(const Dropped &dropped, const Pulses &pulses) const
+std::string Status::summary(const Source &source) const
 {
+	const Dropped dropped = source.dropped();
+	const Pulses pulses = source.pulses();
 	const int64_t out_of_order = outcomes_[PONG_OUT_OF_ORDER];
 	const auto number = [](int64_t count) { return static_cast<long long>(count); };
 	std::string text = pong::format("%lld pairs, %lld with a ball; %lld pictures dropped (%lld without a partner, "
@@ -83,6 +90,12 @@ std::string Status::summary(const Dropped &dropped, const Pulses &pulses) const
 					number(pairs_), number(outcomes_[PONG_SEEN]),
 					number(drops_of(dropped, out_of_order)), number(dropped.unpaired),
 					number(dropped.incomplete), number(dropped.late), number(out_of_order));
+	if (dropped.repeated > 0)
+		text += pong::format("; %lld of a frozen camera", number(dropped.repeated));
+	const int64_t losses[] = {source.health(PONG_LEFT).losses, source.health(PONG_RIGHT).losses};
+	if (losses[PONG_LEFT] + losses[PONG_RIGHT] > 0)
+		text += pong::format("; the left camera was lost %lld times, the right %lld times",
+				     number(losses[PONG_LEFT]), number(losses[PONG_RIGHT]));
 	if (pulses.heard > 0)
 		text += pong::format("; %lld trigger pulses heard, missed by the left camera %lld, by the right %lld",
 				     number(pulses.heard), number(pulses.missed[PONG_LEFT]),

@@ -8,6 +8,7 @@
 
 #include "latency.hpp"
 #include "pongeye.h"
+#include "rig_watch.hpp"
 #include "source.hpp"
 
 namespace track
@@ -17,10 +18,13 @@ namespace track
 struct StatusReport {
 	int64_t pairs = 0, dropped = 0;
 	int64_t missed_left = 0, missed_right = 0;                         // trigger pulses
+	Dropped causes;                                                    // of what was dropped
+	std::array<CameraHealth, 2> cameras;                               // by pong_side
 	std::array<int64_t, PONG_OUTCOMES> outcomes = {};                  // pairs by pong_outcome
 	double pair_rate = NAN, ball_rate = NAN;                           // per second
 	double latency_median = NAN, latency_p99 = NAN, latency_max = NAN; // s
 	double epipolar_mean = NAN, epipolar_rms = NAN;                    // px
+	RigOffset rig;
 };
 
 class Status
@@ -34,7 +38,7 @@ public:
 	bool second_over(int64_t now_ns) const;
 
 	// Make the report of the second that is over, and begin the next.
-	void close_second(int64_t now_ns, const Dropped &dropped, const Pulses &pulses);
+	void close_second(int64_t now_ns, const Source &source);
 
 	// Of the last whole second.
 	const StatusReport &report() const
@@ -42,8 +46,13 @@ public:
 		return report_;
 	}
 
+	RigWatch &rig_watch()
+	{
+		return rig_watch_;
+	}
+
 	// The whole run in one line.
-	std::string summary(const Dropped &dropped, const Pulses &pulses) const;
+	std::string summary(const Source &source) const;
 
 private:
 	static constexpr size_t EPIPOLAR_BALLS = 128;
@@ -56,6 +65,7 @@ private:
 	Latencies second_, run_;
 	std::array<double, EPIPOLAR_BALLS> epipolar_ = {}; // of the last balls, px
 	size_t epipolar_count_ = 0;
+	RigWatch rig_watch_;
 	StatusReport report_;
 };
 

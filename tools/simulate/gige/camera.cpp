@@ -18,12 +18,21 @@ constexpr int64_t idle_wait = 100000000; // how often a still camera looks aroun
 constexpr int64_t patience = 4000000;    // a picture later than this is stale, ns
 constexpr int64_t forgotten = 30000000;  // an edge from outside that is found so late is missed, ns
 constexpr size_t ethernet_overhead = 38; // preamble, header, check sum, gap: bytes that a packet costs the link
+constexpr double longest_death = 1e6;    // s
 constexpr int64_t burst = 200000;        // packets leave up to this early: fewer wake-ups than one a packet, ns
 
 // Every camera has its own clock; that of camera 0 began 1 s before power-on, that of camera 1 2 s before, and so on.
 int64_t clock_begin(int index)
 {
 	return monotonic_now() - (index + 1) * nanoseconds(1);
+}
+
+double drift_of(const CameraSettings &camera)
+{
+	for (const Fault &fault : camera.faults)
+		if (fault.kind == FaultKind::drift)
+			return fault.amount;
+	return 0;
 }
 
 ControlSettings control_settings(const ServerSettings &settings, int index)
@@ -34,7 +43,8 @@ ControlSettings control_settings(const ServerSettings &settings, int index)
 		settings.width,
 		settings.height,
 		settings.exposure,
-		clock_begin(index)};
+		clock_begin(index),
+		drift_of(camera)};
 }
 
 // Gain is an amplifier's: a factor of 10^(gain / 20), gain in dB.
@@ -58,12 +68,13 @@ uint32_t address_of(const ServerSettings &settings, int index)
 Camera::Camera(const ServerSettings &settings, int index, const TriggerLine &line, PictureSource &source)
 	: index_(index), width_(settings.width), height_(settings.height), link_rate_(settings.link_rate),
 	  miss_every_(settings.cameras[static_cast<size_t>(index)].miss_every),
-	  is_outside_(!settings.trigger_socket.empty()), line_(line), source_(source),
-	  control_socket_({address_of(settings, index), gvcp::port}), stream_socket_({address_of(settings, index), 0}),
-	  control_(control_settings(settings, index), ring_),
-	  pixels_(static_cast<size_t>(width_) * static_cast<size_t>(height_))
+	  is_outside_(!settings.trigger_socket.empty()), control_settings_(control_settings(settings, index)),
+	  line_(line), source_(source), control_socket_({address_of(settings, index), gvcp::port}),
+	  stream_socket_({address_of(settings, index), 0}),
+	  faults_(settings.cameras[static_cast<size_t>(index)].faults, settings.rate,
+		  settings.seed * 2 + static_cast<uint64_t>(index)),
+	  wire_(stream_socket_, faults_), pixels_(static_cast<size_t>(width_) * static_cast<size_t>(height_))
 {
-	control_.set_stream_source_port(stream_socket_.port());
 }
 
 Camera::~Camera()
@@ -71,36 +82,72 @@ Camera::~Camera()
 	power_down();
 }
 
+void Camera::keep_power()
+{
+	const int64_t now = monotonic_now();
+	const Fault *death = faults_.find(FaultKind::die, line_.count() + 1);
+	if (death && !dead_until_) {
+		const double seconds = std::min(death->end - death->begin, longest_death);
+		dead_until_ = now + nanoseconds(seconds);
+		power_down();
+	}
+	if (!is_on_ && (!dead_until_ || now >= *dead_until_))
+		power_up();
+	if (!death && is_on_)
+		dead_until_.reset();
+}
+
 void Camera::power_up()
 {
+	const bool is_reborn = dead_until_.has_value();
+	if (is_reborn)
+		control_settings_.power_on = monotonic_now();
+	control_ = std::make_unique<Control>(control_settings_, ring_);
+	control_->set_stream_source_port(stream_socket_.port());
+	if (!is_reborn && faults_.find(FaultKind::held, 0))
+		control_->leave_held(monotonic_now());
+	session_ = 0;
+	sensor_free_ = 0;
 	is_on_ = true;
 	thread_ = std::thread([this] { expose_pictures(); });
 }
 
 void Camera::power_down()
 {
+	if (!is_on_)
+		return;
 	is_on_ = false;
-	control_.finish(control_.acquisition().session);
-	if (thread_.joinable())
-		thread_.join();
+	control_->finish(control_->acquisition().session);
+	thread_.join();
 }
 
+void Camera::keep_clock()
+{
+	if (is_on_)
+		control_->set_clock_step(nanoseconds(faults_.amount(FaultKind::offset, line_.count() + 1)));
+}
+
+// What comes while it has no power nobody hears.
 void Camera::serve()
 {
 	Bytes datagram;
 	Endpoint from;
 	for (int i = 0; i < datagrams_a_round && control_socket_.receive(datagram, from); i++) {
-		const Answer answer = control_.handle(datagram.data(), datagram.size(), from, monotonic_now());
+		if (!is_on_)
+			continue;
+		const Answer answer = control_->handle(datagram.data(), datagram.size(), from, monotonic_now());
 		if (!answer.reply.empty())
 			control_socket_.send(from, answer.reply);
 		for (const Bytes &packet : answer.stream)
-			stream_socket_.send(answer.destination, packet);
+			wire_.send(answer.destination, packet, line_.count());
 	}
 }
 
 void Camera::answer_discovery(const Bytes &datagram, const Endpoint &from)
 {
-	const Bytes reply = control_.discover(datagram.data(), datagram.size());
+	if (!is_on_)
+		return;
+	const Bytes reply = control_->discover(datagram.data(), datagram.size());
 	if (!reply.empty())
 		control_socket_.send(from, reply);
 }
@@ -109,7 +156,7 @@ void Camera::expose_pictures()
 {
 	prctl(PR_SET_TIMERSLACK, 1000); // ns: waits end when they should, not 50 us later
 	while (is_on_) {
-		const Acquisition acquisition = control_.acquisition();
+		const Acquisition acquisition = control_->acquisition();
 		if (acquisition.session && acquisition.session != session_)
 			begin_session(acquisition);
 		const std::optional<Shot> shot = acquisition.session ? plan(acquisition) : std::nullopt;
@@ -118,7 +165,7 @@ void Camera::expose_pictures()
 		else if (shot)
 			take(*shot, acquisition);
 		else
-			control_.wait_for_change(monotonic_now() + idle_wait, acquisition);
+			control_->wait_for_change(monotonic_now() + idle_wait, acquisition);
 	}
 }
 
@@ -127,7 +174,7 @@ void Camera::begin_session(const Acquisition &acquisition)
 	session_ = acquisition.session;
 	session_begin_ = monotonic_now();
 	software_triggers_ = 0;
-	frame_id_ = 0;
+	frame_id_ = static_cast<uint16_t>(faults_.amount(FaultKind::block, 0, 1) - 1);
 	ring_.clear();
 }
 
@@ -169,16 +216,17 @@ Camera::Shot Camera::plan_free(const Acquisition &acquisition, int64_t earliest)
 	return {start, line_.number_at(start), false, false};
 }
 
-bool Camera::is_to_miss(const Shot &shot) const
+bool Camera::is_to_miss(const Shot &shot)
 {
-	return shot.is_by_line && miss_every_ > 0 && shot.pulse % miss_every_ == 0;
+	const bool in_turn = miss_every_ > 0 && shot.pulse % miss_every_ == 0;
+	return shot.is_by_line && (in_turn || faults_.strikes(FaultKind::miss, shot.pulse));
 }
 
 // As if the edge had not been seen.
 void Camera::miss(const Shot &shot, const Acquisition &acquisition)
 {
 	sensor_free_ = shot.start + 1;
-	if (control_.wait_in_session(shot.start, acquisition.session))
+	if (control_->wait_in_session(shot.start, acquisition.session))
 		missed_++;
 }
 
@@ -187,15 +235,16 @@ void Camera::take(const Shot &shot, const Acquisition &acquisition)
 {
 	const int64_t end = shot.start + nanoseconds(acquisition.exposure);
 	sensor_free_ = std::max(end, shot.start + 1);
-	render(shot, acquisition);
-	if (!control_.wait_in_session(end + readout, acquisition.session))
+	if (!faults_.find(FaultKind::freeze, shot.pulse))
+		render(shot, acquisition);
+	if (!control_->wait_in_session(end + readout, acquisition.session))
 		return;
 	if (!shot.can_wait && monotonic_now() > end + readout + patience)
 		return;
 	stream(compose(shot, acquisition), acquisition);
 	pictures_++;
 	if (acquisition.is_single_frame)
-		control_.finish(acquisition.session);
+		control_->finish(acquisition.session);
 }
 
 void Camera::render(const Shot &shot, const Acquisition &acquisition)
@@ -210,7 +259,7 @@ const Frame &Camera::compose(const Shot &shot, const Acquisition &acquisition)
 	if (++frame_id_ == 0)
 		frame_id_ = 1; // 0 is no frame id
 	frame_.id = frame_id_;
-	frame_.timestamp = control_.device_time(shot.start);
+	frame_.timestamp = control_->device_time(shot.start);
 	frame_.region = acquisition.region;
 	frame_.has_chunks = acquisition.has_chunks;
 	frame_.packet_size = acquisition.packet_size;
@@ -220,6 +269,8 @@ const Frame &Camera::compose(const Shot &shot, const Acquisition &acquisition)
 	if (frame_.has_chunks)
 		append_chunks(frame_, {static_cast<float>(acquisition.exposure * 1e6), shot.is_by_line ? 1u : 0u,
 				       static_cast<uint32_t>(shot.is_by_line ? shot.pulse : line_.count())});
+	if (faults_.strikes(FaultKind::truncate, shot.pulse))
+		frame_.data.resize(frame_.data.size() / 2);
 	return ring_.add(frame_);
 }
 
@@ -246,7 +297,7 @@ void Camera::stream(const Frame &frame, const Acquisition &acquisition)
 		due += nanoseconds(static_cast<double>(bytes) * 8 / link_rate_) + acquisition.packet_delay;
 		if (i + 1 == count || due > monotonic_now() + burst)
 			sleep_until(due);
-		stream_socket_.send(acquisition.destination, datagram_);
+		wire_.send(acquisition.destination, datagram_, line_.count());
 	}
 }
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <thread>
 
 #include "control.hpp"
 #include "server.hpp"
 #include "trigger_line.hpp"
 #include "udp_socket.hpp"
+#include "wire.hpp"
 
 namespace gige
 {
@@ -22,14 +24,24 @@ public:
 	Camera(const ServerSettings &settings, int index, const TriggerLine &line, PictureSource &source);
 	~Camera();
 
-	// Begin and end exposing, in a thread of its own.
-	void power_up();
+	// Switch it on where its faults let it have power, and off where they do not. While on it exposes, in a thread
+	// of its own; nothing is left of what a client set before it was off.
+	void keep_power();
 	void power_down();
 
+	bool is_on() const
+	{
+		return is_on_;
+	}
+
+	// Only while it is on.
 	Control &control()
 	{
-		return control_;
+		return *control_;
 	}
+
+	// Follow the clock's faults.
+	void keep_clock();
 
 	CameraCounts counts() const
 	{
@@ -55,12 +67,13 @@ private:
 		bool can_wait; // for its picture, however long it takes to render
 	};
 
+	void power_up();
 	void expose_pictures();
 	std::optional<Shot> plan(const Acquisition &acquisition);
 	std::optional<Shot> plan_by_line(int64_t earliest) const;
 	std::optional<Shot> plan_by_software(const Acquisition &acquisition);
 	Shot plan_free(const Acquisition &acquisition, int64_t earliest) const;
-	bool is_to_miss(const Shot &shot) const;
+	bool is_to_miss(const Shot &shot);
 	void miss(const Shot &shot, const Acquisition &acquisition);
 	void begin_session(const Acquisition &acquisition);
 	void take(const Shot &shot, const Acquisition &acquisition);
@@ -74,11 +87,15 @@ private:
 	const double link_rate_;   // bit/s
 	const int miss_every_;     // 0: misses no trigger
 	const bool is_outside_;    // whether the line's pulses are known when they have come, not before
+	ControlSettings control_settings_;
 	const TriggerLine &line_;
 	PictureSource &source_;
 	const UdpSocket control_socket_, stream_socket_;
+	Faults faults_;
+	Wire wire_;
 	FrameRing ring_;
-	Control control_;
+	std::unique_ptr<Control> control_;
+	std::optional<int64_t> dead_until_; // ns; since it has had no power
 
 	std::atomic<bool> is_on_ = false;
 	std::atomic<int64_t> pictures_ = 0, missed_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "genicam.hpp"
 #include "power_on.hpp"
@@ -285,6 +286,14 @@ void Control::check_heartbeat(int64_t now)
 	expire(now);
 }
 
+void Control::leave_held(int64_t now)
+{
+	const std::lock_guard<std::mutex> lock(mutex_);
+	controller_ = Endpoint{}; // nobody's address
+	heard_ = now;
+	registers_.set(at::control_privilege, control_privilege);
+}
+
 bool Control::may_read(const Endpoint &from) const
 {
 	return !controller_ || controller_ == from || !(registers_.get(at::control_privilege) & exclusive_privilege);
@@ -362,7 +371,9 @@ void Control::notify()
 
 uint64_t Control::device_time(int64_t time) const
 {
-	return static_cast<uint64_t>(time - settings_.power_on);
+	const int64_t since = time - settings_.power_on;
+	return static_cast<uint64_t>(since + std::llround(1e-6 * settings_.drift * static_cast<double>(since)) +
+				     clock_step_);
 }
 
 } // namespace gige

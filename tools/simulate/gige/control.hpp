@@ -2,6 +2,7 @@
 // input or output and reads no clock, so that any bytes at any time can be tried on it.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,15 @@ public:
 	// Take control away from a client that has been silent for longer than its heartbeat timeout.
 	void check_heartbeat(int64_t now);
 
+	// As if a client had taken control just now, that will not be heard of again.
+	void leave_held(int64_t now);
+
+	// The camera's clock is ahead by so much from now on, ns.
+	void set_clock_step(int64_t step)
+	{
+		clock_step_ = step;
+	}
+
 	bool is_controlled() const;
 	Acquisition acquisition() const;
 	void set_stream_source_port(uint16_t port);
@@ -100,6 +110,7 @@ private:
 
 	const ControlSettings settings_;
 	const FrameRing &ring_;
+	std::atomic<int64_t> clock_step_ = 0;
 
 	mutable std::mutex mutex_; // guards all that follows
 	std::condition_variable change_;

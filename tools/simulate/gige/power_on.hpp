@@ -14,6 +14,7 @@ struct ControlSettings {
 	int sensor_width, sensor_height; // px
 	double exposure;                 // s
 	int64_t power_on;                // when the camera's clock began, ns of CLOCK_MONOTONIC
+	double drift = 0;                // of the camera's clock, parts in a million
 };
 
 // Who and what the camera is: the registers that never change.

@@ -69,11 +69,14 @@ struct Server::Implementation {
 	void receive_edges();
 	void switch_line();
 	void report(const Pulse &pulse);
+	void keep_power();
+	void notify();
 	bool any_waits() const;
 	bool all_wait() const;
 
 	const ServerSettings settings;
 	PictureSource &source;
+	double exposure = settings.exposure; // as the cameras have it, s
 	TriggerLine line;
 	Cameras cameras;
 	const UdpSocket discovery_socket;
@@ -99,12 +102,12 @@ void Server::Implementation::run(int64_t pulses)
 {
 	prctl(PR_SET_TIMERSLACK, 1000); // ns
 	line.end_at(pulses);
-	for (const auto &camera : cameras)
-		camera->power_up();
+	keep_power();
 	while (!pong::stop_requested() && !line.has_ended()) {
 		const int64_t patience = monotonic_now() + longest_wait;
 		serve_until(std::min(patience, line.next_time().value_or(patience)));
 		watch_line();
+		keep_power();
 	}
 	const int64_t end = monotonic_now() + linger;
 	while (!pong::stop_requested() && monotonic_now() < end)
@@ -125,7 +128,24 @@ void Server::Implementation::serve_until(int64_t time)
 		receive_edges();
 	}
 	for (const auto &camera : cameras)
-		camera->control().check_heartbeat(monotonic_now());
+		if (camera->is_on())
+			camera->control().check_heartbeat(monotonic_now());
+}
+
+void Server::Implementation::keep_power()
+{
+	for (const auto &camera : cameras) {
+		camera->keep_power();
+		camera->keep_clock();
+	}
+}
+
+// For cameras that wait for the line.
+void Server::Implementation::notify()
+{
+	for (const auto &camera : cameras)
+		if (camera->is_on())
+			camera->control().notify();
 }
 
 void Server::Implementation::answer_discovery()
@@ -144,8 +164,7 @@ void Server::Implementation::receive_edges()
 		if (!time)
 			return;
 		line.add_edge(*time);
-		for (const auto &camera : cameras)
-			camera->control().notify();
+		notify();
 	}
 }
 
@@ -164,28 +183,33 @@ void Server::Implementation::switch_line()
 		line.stop();
 	} else if (!line.is_running() && all_wait()) {
 		line.start(monotonic_now() + lead);
-		for (const auto &camera : cameras)
-			camera->control().notify();
+		notify();
 	}
 }
 
 // The middle is that of the first camera's exposure, should a client have set them differently.
 void Server::Implementation::report(const Pulse &pulse)
 {
-	const double exposure = cameras.front()->control().acquisition().exposure;
+	for (const auto &camera : cameras)
+		if (camera->is_on()) {
+			exposure = camera->control().acquisition().exposure;
+			break;
+		}
 	source.exposed(pulse.number, monotonic_to_realtime(pulse.time + nanoseconds(exposure / 2)) / 1000);
 }
 
 bool Server::Implementation::any_waits() const
 {
-	return std::any_of(cameras.begin(), cameras.end(),
-			   [](const auto &camera) { return waits_for_line(camera->control().acquisition()); });
+	return std::any_of(cameras.begin(), cameras.end(), [](const auto &camera) {
+		return camera->is_on() && waits_for_line(camera->control().acquisition());
+	});
 }
 
 bool Server::Implementation::all_wait() const
 {
 	return any_waits() && std::all_of(cameras.begin(), cameras.end(), [](const auto &camera) {
-		       return !camera->control().is_controlled() || waits_for_line(camera->control().acquisition());
+		       return !camera->is_on() || !camera->control().is_controlled() ||
+			      waits_for_line(camera->control().acquisition());
 	       });
 }
 

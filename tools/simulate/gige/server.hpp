@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "faults.hpp"
+
 namespace gige
 {
 
@@ -31,6 +33,7 @@ struct CameraSettings {
 	std::string address; // of this machine: "127.0.0.1"
 	std::string serial;  // "SIML"
 	int miss_every = 0;  // misses every so many-th trigger; 0: none
+	std::vector<Fault> faults = {};
 };
 
 struct ServerSettings {
@@ -39,6 +42,7 @@ struct ServerSettings {
 	double rate = 110;             // of the trigger line, Hz
 	double exposure = 0.002;       // until a client sets another one, s
 	double link_rate = 1e9;        // packets are paced as this link would, bit/s
+	uint64_t seed = 1;             // of what the faults leave to chance
 	std::string trigger_socket; // where the line's edges come from, see edge_socket.hpp; empty: of the line's own
 };
 

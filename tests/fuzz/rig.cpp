@@ -1,0 +1,64 @@
+// Any bytes as rig.toml: the rig, the settings, and what the cameras are told. What reads as a rig must be written and
+// read again to the same, and a camera in it can be changed in place, or is refused.
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bytes_file.hpp"
+#include "calibrate/rig_edit.hpp"
+#include "pongeye.h"
+#include "program.hpp"
+#include "track/capture_settings.hpp"
+
+namespace
+{
+
+void check_round_trip(const pong_rig &rig)
+{
+	const int size = pong_rig_format(&rig, nullptr, 0);
+	std::vector<char> text(static_cast<size_t>(size) + 1);
+	pong_rig_format(&rig, text.data(), size + 1);
+	pong_rig again;
+	pong_error error;
+	if (pong_rig_parse(text.data(), "again", &again, &error) < 0)
+		abort();
+	std::vector<char> text_again(static_cast<size_t>(size) + 1);
+	if (pong_rig_format(&again, text_again.data(), size + 1) != size || text != text_again)
+		abort();
+}
+
+void check_edit(const std::string &text, const pong_rig &rig)
+{
+	pong_camera camera = rig.camera[PONG_RIGHT];
+	camera.P[0][3] += 1;
+	try {
+		calibrate::with_camera(text, "fuzz", PONG_RIGHT, camera);
+	} catch (const pong::Failure &) {
+		return; // one sentence: as it should be
+	}
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+	const std::string bytes(reinterpret_cast<const char *>(data), size), text = bytes.c_str();
+	pong_rig rig;
+	pong_settings settings;
+	pong_error error;
+	if (pong_rig_parse(text.c_str(), "fuzz", &rig, &error) > 0) {
+		check_round_trip(rig);
+		check_edit(text, rig);
+	}
+	pong_settings_defaults(PONG_BEST, &settings);
+	pong_settings_parse(text.c_str(), "fuzz", &settings, &error);
+	const BytesFile file(data, size);
+	pong_rig_load_flight(file.path().c_str(), &rig, &error);
+	try {
+		track::load_capture_settings(file.path());
+	} catch (const pong::Failure &) {
+		return 0; // one sentence: as it should be
+	}
+	return 0;
+}

@@ -1,0 +1,36 @@
+#include "realtime.hpp"
+
+#include <mutex>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "program.hpp"
+
+namespace track
+{
+
+void make_thread_realtime(int priority)
+{
+	static std::once_flag warned;
+	sched_param parameters = {};
+	parameters.sched_priority = priority;
+	if (pthread_setschedparam(pthread_self(), SCHED_RR, &parameters) != 0)
+		std::call_once(warned, [] {
+			pong::say(
+				"no real-time priority, which this user may not have: under load pictures come later");
+		});
+}
+
+// With a limit that all later memory counts against, memory would run out sooner: then rather not.
+void lock_memory()
+{
+	rlimit limit;
+	const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
+	if (unlimited || geteuid() == 0)
+		mlockall(MCL_CURRENT | MCL_FUTURE);
+}
+
+} // namespace track

@@ -1,0 +1,13 @@
+// What an operating system gives to those who must not be late, where the user may have it.
+#pragma once
+
+namespace track
+{
+
+// Real-time priority for the calling thread; where the user may not have it, it is said once, and all goes on.
+void make_thread_realtime(int priority);
+
+// Keep all memory of the program in RAM, now and later; where the user may not, nothing is done.
+void lock_memory();
+
+} // namespace track
