@@ -19,6 +19,7 @@ const int outline_pixels = 450;    // of the outline of a large ball, about so m
 const double background_error = 5; // of an earlier picture that shows what is behind the ball, but for its light: grey
 				   // levels, standard deviation
 const double light_change = 0.4;   // of that light, at most
+const float rise_most = 8;         // of the background, grey levels per px: an edge that is sharper is not straight
 const int row_max = 512;
 
 // How a picture's grey level varies: read and rounding noise, and shot noise per grey level, about. Only their relation
@@ -95,6 +96,8 @@ public:
 		pixels_->patch[b][i] = static_cast<uint8_t>(sector + (distance > -rim ? sectors : 0));
 		to.background[i] = value(task_.pictures.earlier[0], u, v);
 		older_[b][i] = value(task_.pictures.earlier[1], u, v);
+		u_[b][i] = u;
+		v_[b][i] = v;
 		if (distance > bare) {
 			difference_[0][sector].add(now, to.background[i]);
 			difference_[1][sector].add(now, older_[b][i]);
@@ -122,6 +125,7 @@ public:
 			float &background = pixels_->blocks[b].background[i], &weight = pixels_->weight[b][i];
 			if (older[sector])
 				background = older_[b][i];
+			rise(task_.pictures.earlier[older[sector]], b, i);
 			// Where no ball is, the earlier picture's noise counts too.
 			const float distance = weight;
 			const float seen = std::clamp(distance / bare + 0.5f, 0.0f, 1.0f);
@@ -133,17 +137,29 @@ public:
 		for (; count_ % block; count_++) {
 			SphereBlock &to = pixels_->blocks[count_ / block];
 			const int i = count_ % block;
-			to.u[i] = to.v[i] = to.background[i] = 0;
+			to.u[i] = to.v[i] = to.background[i] = to.rise_u[i] = to.rise_v[i] = 0;
 			pixels_->now[count_ / block][i] = pixels_->weight[count_ / block][i] = 0;
 			pixels_->patch[count_ / block][i] = 0;
 		}
 	}
 
 private:
+	// Central differences; the plane's axes are the picture's, but for little.
+	void rise(const pong_image &image, int b, int i)
+	{
+		const int u = u_[b][i], v = v_[b][i];
+		const int left = std::max(u - 1, 0), right = std::min(u + 1, image.width - 1);
+		const int above = std::max(v - 1, 0), below = std::min(v + 1, image.height - 1);
+		const auto gentle = [](float rise) { return std::clamp(rise, -rise_most, rise_most); };
+		pixels_->blocks[b].rise_u[i] = gentle((value(image, right, v) - value(image, left, v)) / 2);
+		pixels_->blocks[b].rise_v[i] = gentle((value(image, u, below) - value(image, u, above)) / 2);
+	}
+
 	const LocateTask &task_;
 	BallPixels *pixels_;
 	int count_ = 0;
 	float older_[blocks_max][block];
+	int u_[blocks_max][block], v_[blocks_max][block];
 	Difference difference_[2][sectors];
 };
 

@@ -99,8 +99,11 @@ PONG_CLONES void render_sphere(const SphereParameters &parameters, const Streak 
 			const float per_z = 1 / (z > facing_least ? z : facing_least);
 			const float part = share * cover, over = shade - behind[i];
 			const float edge = share * step.density * per_blur * over;
+			// What is bare of it lies blur density / (1 - cover) farther outside, where the background is
+			// another.
+			const float rise = (pixels->rise_u[i] * du + pixels->rise_v[i] * dv) * per_r;
 			bare[i] -= part;
-			pixels->level[i] += part * over;
+			pixels->level[i] += part * over + share * blur * step.density * rise;
 			pixels->slope[0][i] += edge * du * per_r + part * per_radius * (by.z * x * per_z - by.x);
 			pixels->slope[1][i] += edge * dv * per_r + part * per_radius * (by.z * y * per_z - by.y);
 			pixels->slope[2][i] +=

@@ -46,6 +46,7 @@ struct Streak {
 struct SphereBlock {
 	float u[block], v[block];
 	float background[block];
+	float rise_u[block], rise_v[block]; // of the background, grey levels per px
 	// Filled by render_sphere: what is expected, and its derivative by every parameter.
 	float level[block];
 	float slope[sphere_parameters][block];
