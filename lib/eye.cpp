@@ -128,7 +128,7 @@ bool locate(const Side &side, const pong_pictures &pictures, const pong_detectio
 	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
-	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
+	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}, 0, 0};
 	return true;
 }
 
