@@ -26,6 +26,7 @@ const int balls_capacity = 16;        // places in one picture that look like a 
 const double faint = 12;              // a ball of less contrast has no edges that can be located, grey levels
 const double faint_error = 0.1;       // of its centre then, radii
 const double usual_noise = 2;         // of a pixel, standard deviation, grey levels
+const double doubt_alone = 2;         // allowed where no other place looks like a ball
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -90,7 +91,11 @@ bool locate(const Side &side, const pong_pictures &pictures, const pong_detectio
 	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
-	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}};
+	*centre = {};
+	centre->u = found.u;
+	centre->v = found.v;
+	centre->radius = found.size / 2;
+	centre->covariance[0][0] = centre->covariance[1][1] = variance;
 	return true;
 }
 
@@ -195,8 +200,10 @@ Trust trust_of(const pong_eye &eye, const Match &match)
 {
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return Trust::usual;
+	// Hands are many, and one person's left is taken for another's right.
+	const bool alone = eye.side[PONG_LEFT].balls.count == 1 && eye.side[PONG_RIGHT].balls.count == 1;
 	if (cluttered(*eye.side[PONG_LEFT].detector) || cluttered(*eye.side[PONG_RIGHT].detector))
-		return match.doubt < 1 ? Trust::likely : Trust::none;
+		return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
 	return match.doubt < 1 ? Trust::certain : Trust::usual;
 }
 
