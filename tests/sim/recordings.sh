@@ -43,8 +43,10 @@ check "and replayed" "$track" --replay windows.lcm --output windows.txt
 check "with a row for every pair" test "$(rows windows.txt)" -eq "$pairs"
 check "to at least 99 % of the balls ($(balls windows.txt) of $(balls whole.txt))" \
 	awk "BEGIN { exit !($(balls windows.txt) >= 0.99 * $(balls whole.txt) && $(balls windows.txt) <= $(balls whole.txt)) }"
-check "which are where they were, to 3 mm" bash -c "paste -d' ' whole.txt windows.txt | awk '
-	!/^#/ && \$7 != \"-\" && \$30 != \"-\" { n++; if ((\$7 - \$30) ^ 2 + (\$8 - \$31) ^ 2 + (\$9 - \$32) ^ 2 > 9e-6) bad++ }
+# The background around a window is older than the camera's: that moves a ball by less than it is uncertain.
+check "which are where they were, to 3 standard deviations" bash -c "paste -d' ' whole.txt windows.txt | awk '
+	!/^#/ && \$7 != \"-\" && \$30 != \"-\" { n++; variance = \$13 ^ 2 + \$14 ^ 2 + \$15 ^ 2
+		if ((\$7 - \$30) ^ 2 + (\$8 - \$31) ^ 2 + (\$9 - \$32) ^ 2 > 9 * variance) bad++ }
 	END { exit !(n > 20 && !bad) }'"
 check "messages alone take next to nothing" bash -c \
 	"'$track' --replay session.lcm --record messages.lcm --record-what messages && [ \$(stat -c %s messages.lcm) -lt 1000000 ]"
