@@ -8,10 +8,13 @@
 
 #include "camera.hpp"
 #include "detector.hpp"
+#include "doubt.hpp"
 #include "error.hpp"
 #include "outline.hpp"
+#include "picture_ring.hpp"
 #include "region.hpp"
 #include "track.hpp"
+#include "window.hpp"
 
 namespace pong
 {
@@ -19,15 +22,11 @@ namespace pong
 namespace
 {
 
-const int balls_capacity = 16;  // places in one picture that look like a ball
-const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
-const double faint_error = 0.1; // of its centre then, radii
-const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
-// Two centres of a ball agree better than those of anything else that moves: with each other's epipolar lines (px, and
-// parts of the radius), their sizes with the distance (parts), and its outline is seen.
-const double certain_epipolar = 0.6, certain_epipolar_size = 0.03;
-const double certain_size = 0.08;
-const double certain_shown = 0.87;    // of the outline: an arm's end shows less
+const int balls_capacity = 16;        // places in one picture that look like a ball
+const double faint = 12;              // a ball of less contrast has no edges that can be located, grey levels
+const double faint_error = 0.1;       // of its centre then, radii
+const double usual_noise = 2;         // of a pixel, standard deviation, grey levels
+const double doubt_alone = 2;         // allowed where no other place looks like a ball
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -42,42 +41,6 @@ template<auto free> struct Deleter {
 using Region = std::unique_ptr<pong_region, Deleter<pong_region_free>>;
 using Detector = std::unique_ptr<pong_detector, Deleter<pong_detector_free>>;
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
-
-// The last pictures of one camera, copied: the newest, and those that it is compared with.
-class PictureRing
-{
-public:
-	PictureRing(int width, int height, int length)
-		: width_(width), height_(height),
-		  pixels_(static_cast<size_t>(length), std::vector<uint8_t>(static_cast<size_t>(width) * height))
-	{
-	}
-
-	size_t count() const
-	{
-		return count_;
-	}
-
-	// The one that was added `age` pictures before the newest, or the oldest.
-	pong_image earlier(size_t age) const
-	{
-		const uint8_t *pixels = pixels_[(count_ - 1 - std::min(age, count_ - 1)) % pixels_.size()].data();
-		return {pixels, width_, height_, width_};
-	}
-
-	void add(const pong_image &image)
-	{
-		uint8_t *copy = pixels_[count_++ % pixels_.size()].data();
-		for (int v = 0; v < height_; v++)
-			memcpy(copy + static_cast<size_t>(v) * width_, image.pixels + v * image.stride,
-			       static_cast<size_t>(width_));
-	}
-
-private:
-	int width_, height_;
-	std::vector<std::vector<uint8_t>> pixels_;
-	size_t count_ = 0;
-};
 
 // What one camera's picture shows.
 struct Balls {
@@ -128,7 +91,11 @@ bool locate(const Side &side, const pong_pictures &pictures, const pong_detectio
 	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
-	*centre = {found.u, found.v, found.size / 2, {{variance, 0}, {0, variance}}, 0, 0};
+	*centre = {};
+	centre->u = found.u;
+	centre->v = found.v;
+	centre->radius = found.size / 2;
+	centre->covariance[0][0] = centre->covariance[1][1] = variance;
 	return true;
 }
 
@@ -197,21 +164,6 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 	       pong_predict_at(&eye.rig, &recent, utime, &eye.settings, expected);
 }
 
-// How badly the two centres agree, and the ball shows, in parts of what a ball never exceeds.
-double doubt_of(const pong_eye &eye, const Match &match, double shown)
-{
-	const pong_centre *centre[2] = {match.left, match.right};
-	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
-	const double reach = certain_epipolar + certain_epipolar_size * (match.left->radius + match.right->radius) / 2;
-	double doubt = std::abs(pong_epipolar_distance(eye.rig.camera, left_uv, right_uv)) / reach;
-	for (int side = 0; side < 2; side++) {
-		const double expected =
-			pong_apparent_size(&eye.rig.camera[side], match.point.position, eye.rig.ball.diameter);
-		doubt = std::max(doubt, std::abs(2 * centre[side]->radius / expected - 1) / certain_size);
-	}
-	return std::max(doubt, (1 - shown) / (1 - certain_shown));
-}
-
 // Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
 // brightest; at best the one of least doubt, near to where it is expected.
 double cost_of(const pong_eye &eye, const pong_state *expected, const Match &match, double contrast)
@@ -232,7 +184,8 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
 			    !in_flight_space(eye.rig, eye.settings, match.point.position))
 				continue;
-			match.doubt = doubt_of(eye, match, std::min(left.shown[l], right.shown[r]));
+			match.doubt = std::max(doubt_of_centres(eye.rig, *match.left, *match.right, match.point),
+					       doubt_of_outline(std::min(left.shown[l], right.shown[r])));
 			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
 			if (cost < best_cost) {
 				best_cost = cost;
@@ -247,8 +200,10 @@ Trust trust_of(const pong_eye &eye, const Match &match)
 {
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return Trust::usual;
+	// Hands are many, and one person's left is taken for another's right.
+	const bool alone = eye.side[PONG_LEFT].balls.count == 1 && eye.side[PONG_RIGHT].balls.count == 1;
 	if (cluttered(*eye.side[PONG_LEFT].detector) || cluttered(*eye.side[PONG_RIGHT].detector))
-		return match.doubt < 1 ? Trust::likely : Trust::none;
+		return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
 	return match.doubt < 1 ? Trust::certain : Trust::usual;
 }
 
@@ -262,8 +217,8 @@ void expect(pong_eye &eye)
 		there.streaked =
 			eye.expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
 						     eye.settings.locate.exposure, there.streak);
-		windowed = windowed && pong_window_around(&eye.rig, static_cast<pong_side>(side), expected.position,
-							  &eye.settings, &there.window);
+		windowed = windowed &&
+			   window_around(eye.rig, static_cast<pong_side>(side), expected, eye.settings, &there.window);
 	}
 	for (Expectation &there : eye.side_expected)
 		there.windowed = windowed;

@@ -139,8 +139,8 @@ void pong_settings_defaults(pong_profile profile, pong_settings *settings)
 	settings->predict.step = 0.001;
 	settings->predict.horizon = 1.5;
 	settings->predict.path_step = 0.02;
-	settings->window.margin = 10;
-	settings->window.diameters = 1;
+	settings->window.margin = profile == PONG_PAPER ? 10 : 7;
+	settings->window.diameters = profile == PONG_PAPER ? 1 : 0.3;
 }
 
 int pong_settings_parse(const char *text, const char *name, pong_settings *settings, pong_error *error)

@@ -1,15 +1,20 @@
 // Where in the next picture the ball is expected: the prediction fed back (paper, section 4.1).
+#include "window.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 #include "camera.hpp"
-#include "pongeye.h"
 
 namespace
 {
 
-const double size_uncertainty = 1.15; // the ball is at most this factor larger or smaller than expected
+// The ball is at most this factor larger or smaller than expected; the paper's points need some room.
+const double size_uncertainty = 1.15, size_uncertainty_paper = 1.4;
+const double sigmas = 4;      // of where the ball is expected, around the least window
+const double more_most = 100; // px
 
-}
+} // namespace
 
 int pong_window_around(const pong_rig *rig, pong_side side, const double position[3], const pong_settings *settings,
 		       pong_window *window)
@@ -25,7 +30,33 @@ int pong_window_around(const pong_rig *rig, pong_side side, const double positio
 	window->u = static_cast<int>(std::floor(uv[0] - reach));
 	window->v = static_cast<int>(std::floor(uv[1] - reach));
 	window->width = window->height = static_cast<int>(std::ceil(2 * reach)) + 1;
-	window->size_min = size / size_uncertainty;
-	window->size_max = size * size_uncertainty;
+	const double factor =
+		settings->detect.method == PONG_DETECT_DIFFERENCE ? size_uncertainty_paper : size_uncertainty;
+	window->size_min = size / factor;
+	window->size_max = size * factor;
 	return PONG_FOUND;
 }
+
+namespace pong
+{
+
+bool window_around(const pong_rig &rig, pong_side side, const pong_state &expected, const pong_settings &settings,
+		   pong_window *window)
+{
+	if (!pong_window_around(&rig, side, expected.position, &settings, window))
+		return false;
+	double variance = 0;
+	for (int axis = 0; axis < 3 && expected.has_spin; axis++) // the paper's state has no covariance
+		variance = std::max(variance, expected.covariance[axis][axis]);
+	const double diameter = rig.ball.diameter;
+	const double px_per_metre = pong_apparent_size(&rig.camera[side], expected.position, diameter) / diameter;
+	const double more = std::min(sigmas * std::sqrt(variance) * px_per_metre, more_most);
+	const int px = static_cast<int>(std::ceil(more));
+	window->u -= px;
+	window->v -= px;
+	window->width += 2 * px;
+	window->height += 2 * px;
+	return true;
+}
+
+} // namespace pong

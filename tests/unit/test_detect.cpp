@@ -6,6 +6,7 @@
 
 #include "cells.hpp"
 #include "conditions.hpp"
+#include "outline.hpp"
 #include "pictures.hpp"
 #include "rigs.hpp"
 
@@ -135,6 +136,77 @@ TEST_P(DoubleDifference, FindsABallOfLowContrast)
 	ASSERT_EQ(look(with_ball(190, 300, 240, 11, 205), empty, empty), 1);
 	EXPECT_NEAR(found_[0].u, 300, 1);
 	EXPECT_NEAR(found_[0].size, 22, 4);
+}
+
+// A white ball before a white wall.
+TEST_P(DoubleDifference, FindsAFaintBall)
+{
+	const Picture empty(width, height, 190);
+	ASSERT_EQ(look(with_ball(190, 300, 240, 11, 201), empty, empty), 1); // 11 and 1 levels from the chequers
+	EXPECT_NEAR(found_[0].u, 300, 4);
+}
+
+// An arm: round at its end, and everywhere as wide as a ball.
+Picture with_arm(double u_end)
+{
+	Picture picture(width, height, 50);
+	for (double u = u_end; u < width; u += 2)
+		picture.draw_ball(u, 240 + 0.3 * (u - u_end), 11, 140);
+	return picture;
+}
+
+TEST_P(DoubleDifference, TakesNoArmForABall)
+{
+	EXPECT_EQ(look(with_arm(300), with_arm(330), with_arm(360)), 0);
+	EXPECT_EQ(look(with_arm(300), with_arm(270), with_arm(240)), 0);
+}
+
+TEST_P(DoubleDifference, FindsABallBeforeAnArm)
+{
+	Picture current = with_arm(290);
+	current.draw_ball(330, 250, 12, 220);
+	ASSERT_GE(look(current, with_arm(310), with_arm(340)), 1);
+	EXPECT_NEAR(found_[0].u, 330, 2);
+	EXPECT_NEAR(found_[0].v, 250, 2);
+	EXPECT_NEAR(found_[0].size, 24, 4);
+}
+
+// A person fills the window, whose pixels tell no noise then: what whole pictures have told counts.
+TEST_P(DoubleDifference, KnowsTheNoiseOfWholePictures)
+{
+	const Picture empty(width, height, 50);
+	look(empty, empty, empty);
+	Picture current = with_arm(290);
+	current.draw_ball(330, 250, 12, 170);
+	const pong_window window = {310, 230, 40, 40, 21, 27};
+	ASSERT_GE(look(current, with_arm(310), with_arm(340), &window), 1);
+	EXPECT_NEAR(found_[0].u, 330, 2);
+}
+
+// A disc shows all of its outline, a bar's end does not, and neither does what noise draws.
+TEST(Outline, IsTheBallsOwn)
+{
+	Picture picture(width, height, 50);
+	picture.draw_ball(200, 200, 10, 150);
+	for (int u = 400; u < 500; u++)
+		picture.draw_ball(u, 200, 10, 150);
+	picture.add_noise(noise, 1);
+	const pong::Outline disc = pong::measure_outline(picture.image(), 200, 200, 10, noise);
+	EXPECT_EQ(disc.shown, 1);
+	EXPECT_NEAR(disc.step, 95, 8); // the wall's chequers: 50 and 60
+	EXPECT_LT(pong::measure_outline(picture.image(), 400, 200, 10, noise).shown, 0.87);
+	Picture flat(width, height, 50);
+	EXPECT_EQ(pong::measure_outline(flat.image(), 8, 8, 4, noise).shown, 0);
+}
+
+// Half of the ball is out of the picture: the other half tells. Of less than half nothing is said.
+TEST(Outline, OfWhatIsInThePicture)
+{
+	Picture picture(width, height, 50);
+	picture.draw_ball(200, 1, 10, 150);
+	EXPECT_EQ(pong::measure_outline(picture.image(), 200, 1, 10, noise).shown, 1);
+	picture.draw_ball(400, -6, 10, 150);
+	EXPECT_EQ(pong::measure_outline(picture.image(), 400, -6, 10, noise).shown, 0);
 }
 
 // A lamp that flickers: the whole picture is a tenth brighter than before.

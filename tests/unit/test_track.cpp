@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "flights.hpp"
+#include "track.hpp"
 
 namespace
 {
@@ -111,6 +112,38 @@ TEST_F(Track, OfTwoBallsTheOneThatComesIsFollowed)
 	pong_state state;
 	ASSERT_TRUE(pong_track_state(track_.get(), &state));
 	EXPECT_LT(state.velocity[2], 0);
+}
+
+// What may be a hand begins no flight, and is believed only where the ball has just been.
+TEST_F(Track, WhatMayBeAHandOnlyContinues)
+{
+	for (int i = 0; i < 10; i++)
+		EXPECT_EQ(pong::push_point(*track_, points_[i], pong::Trust::none), PONG_TRACK_REJECTED);
+	for (int i = 10; i < 20; i++)
+		pong_track_push(track_.get(), &points_[i]);
+	EXPECT_EQ(pong::push_point(*track_, points_[20], pong::Trust::none), PONG_TRACK_FOLLOWED);
+	EXPECT_EQ(pong::push_point(*track_, points_[40], pong::Trust::none), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong::push_point(*track_, points_[41], pong::Trust::likely), PONG_TRACK_FOLLOWED);
+}
+
+TEST_F(Track, WhatIsLikelyABallNeedsASecondSight)
+{
+	EXPECT_EQ(pong::push_point(*track_, points_[0], pong::Trust::likely), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong_track_id(track_.get()), 0);
+	EXPECT_EQ(pong::push_point(*track_, points_[1], pong::Trust::likely), PONG_TRACK_BEGUN);
+	EXPECT_EQ(pong_track_count(track_.get()), 2);
+}
+
+// A ball that was taken away and put elsewhere.
+TEST_F(Track, ACertainBallElsewhereIsANewFlightSoon)
+{
+	push_all({points_.begin(), points_.begin() + 4});
+	pong_point point = points_[10];
+	point.position[0] += 0.6;
+	EXPECT_EQ(pong::push_point(*track_, point, pong::Trust::usual), PONG_TRACK_REJECTED);
+	point.utime++;
+	EXPECT_EQ(pong::push_point(*track_, point, pong::Trust::certain), PONG_TRACK_BEGUN);
+	EXPECT_EQ(pong_track_id(track_.get()), 2);
 }
 
 TEST_F(Track, ALostBallEndsTheFlight)

@@ -1,0 +1,40 @@
+#include "doubt.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pong
+{
+
+namespace
+{
+
+const double epipolar = 1, epipolar_size = 0.03; // px, and parts of the radius
+const double size = 0.06, size_error = 0.5;      // parts of the radius, and px: far balls are small
+const double sizes = 0.03, sizes_error = 0.2;    // the two with each other: what light does to one, it does to both
+const double outline_shown = 0.87;               // an arm's end shows less
+
+} // namespace
+
+double doubt_of_centres(const pong_rig &rig, const pong_centre &left, const pong_centre &right, const pong_point &point)
+{
+	const double left_uv[2] = {left.u, left.v}, right_uv[2] = {right.u, right.v};
+	const double reach = epipolar + epipolar_size * (left.radius + right.radius) / 2;
+	double doubt = std::abs(pong_epipolar_distance(rig.camera, left_uv, right_uv)) / reach;
+	double off[2]; // by how much each is larger than expected, px of the radius
+	const pong_centre *centre[2] = {&left, &right};
+	double expected = 0;
+	for (int side = 0; side < 2; side++) {
+		expected = pong_apparent_size(&rig.camera[side], point.position, rig.ball.diameter) / 2;
+		off[side] = centre[side]->radius - expected;
+		doubt = std::max(doubt, std::abs(off[side]) / (size * expected + size_error));
+	}
+	return std::max(doubt, std::abs(off[0] - off[1]) / (sizes * expected + sizes_error));
+}
+
+double doubt_of_outline(double shown)
+{
+	return (1 - shown) / (1 - outline_shown);
+}
+
+} // namespace pong

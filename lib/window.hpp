@@ -1,0 +1,13 @@
+// Where in the next pictures the ball is expected.
+#pragma once
+
+#include "pongeye.h"
+
+namespace pong
+{
+
+// As pong_window_around, and as much larger as the state is uncertain.
+bool window_around(const pong_rig &rig, pong_side side, const pong_state &expected, const pong_settings &settings,
+		   pong_window *window);
+
+} // namespace pong
