@@ -26,7 +26,7 @@ const double least_pixel_sigma = 0.02; // px
 const double alike = 4;                // a flight counts as so many sightings: its centres err alike, lit alike
 // Of a slope of epipolar distances across the picture, px a px: a ball seen from the other side is lit from the other
 // side. It looks just like a rotation about the optical axis.
-const double shading_slope = 0.0005;
+const double shading_slope = 0.0008;
 const double established = 1.5;      // a rotation below so many sigma is taken for none
 const double gravity = 9.81;         // m/s^2
 const double acceleration_sigma = 2; // of what drag and spin add to it, upwards, m/s^2
