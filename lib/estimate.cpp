@@ -88,11 +88,13 @@ void Estimate::add(const pong_point &point)
 	find_state();
 }
 
+// A point has the noise of its own time; the first ones have what was found out from a few more.
 void Estimate::find_noise(const pong_point &point)
 {
 	noise_.add(point.utime, vector_of(point.position));
 	const Matrix3 information = noise_.sigma().array().square().inverse().matrix().asDiagonal();
-	for (size_t i = 0; i < count_; i++)
+	const size_t first = count_ <= 2 * Noise::reach ? 0 : count_ - Noise::reach;
+	for (size_t i = first; i < count_; i++)
 		if (samples_[i].unknown)
 			samples_[i].information = information;
 }
