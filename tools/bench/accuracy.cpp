@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bound.hpp"
+#include "chart.hpp"
 #include "commands.hpp"
 #include "opencv_way.hpp"
 #include "options.hpp"
@@ -49,8 +50,8 @@ const Method methods[] = {
 
 // What one method did under one condition.
 struct Score {
-	int shots = 0, points = 0, centres = 0;
-	double error = 0, error_most = 0;        // m, in space
+	int shots = 0, centres = 0;
+	std::vector<double> errors;              // of the points, m, in space
 	double sum[2] = {}, sum2[2] = {};        // of a centre's error, px
 	double normalised2 = 0, normalised3 = 0; // errors squared, by their covariances
 	std::vector<double> us;
@@ -58,7 +59,9 @@ struct Score {
 
 struct Settings {
 	int seeds, first_seed;
-	std::string rig; // a calibration to locate with; empty: the true one
+	std::string rig;  // a calibration to locate with; empty: the true one
+	std::string only; // this condition; empty: all
+	std::string figure;
 };
 
 // Both centres of a shot by one method, and the point.
@@ -133,9 +136,7 @@ private:
 			return;
 		const Eigen::Vector3d error = Eigen::Map<const Eigen::Vector3d>(point.position) - truth;
 		const Eigen::Matrix3d covariance = Eigen::Map<const Eigen::Matrix3d>(&point.covariance[0][0]);
-		score->points++;
-		score->error += error.norm();
-		score->error_most = std::max(score->error_most, error.norm());
+		score->errors.push_back(error.norm());
 		score->normalised3 += error.dot(covariance.inverse() * error);
 	}
 
@@ -291,11 +292,18 @@ void measure(const Condition &condition, const Settings &settings, Score scores[
 					? position_bound(scene, still, shots.back().position, shots.back().velocity)
 					: NAN;
 			if (std::isfinite(least)) {
-				bound->points++;
-				bound->error += least;
+				bound->errors.push_back(least);
 			}
 		}
 	}
+}
+
+double mean(const std::vector<double> &values)
+{
+	double sum = 0;
+	for (const double value : values)
+		sum += value;
+	return values.empty() ? NAN : sum / static_cast<double>(values.size());
 }
 
 double median(std::vector<double> values)
@@ -315,13 +323,34 @@ std::string name_of(const Condition &condition)
 
 void print_row(const Condition &condition, const Method &method, const Score &score)
 {
-	const double n = std::max(score.centres, 1), points = std::max(score.points, 1);
+	const double n = std::max(score.centres, 1);
+	const size_t points = score.errors.size();
+	const double most = points > 0 ? *std::max_element(score.errors.begin(), score.errors.end()) : NAN;
 	const double bias[2] = {score.sum[0] / n, score.sum[1] / n};
 	const auto spread = [&](int axis) { return std::sqrt(score.sum2[axis] / n - bias[axis] * bias[axis]); };
-	printf("%-10s %-18s %5d %5d %7.3f %8.3f %7.3f %7.3f %6.3f %6.3f %7.2f %7.2f %7.1f\n",
-	       name_of(condition).c_str(), method.name, score.shots, score.points, 1e3 * score.error / points,
-	       1e3 * score.error_most, bias[0], bias[1], spread(0), spread(1), score.normalised2 / n,
-	       score.normalised3 / points, median(score.us));
+	printf("%-10s %-18s %5d %5zu %7.3f %8.3f %7.3f %7.3f %6.3f %6.3f %7.2f %7.2f %7.1f\n",
+	       name_of(condition).c_str(), method.name, score.shots, points, 1e3 * mean(score.errors), 1e3 * most,
+	       bias[0], bias[1], spread(0), spread(1), score.normalised2 / n,
+	       score.normalised3 / static_cast<double>(std::max<size_t>(points, 1)), median(score.us));
+}
+
+// How the errors of balls at rest are distributed, all lights together.
+void draw_errors(const std::string &path, std::vector<double> errors[std::size(methods)])
+{
+	const char *const colours[] = {"#c23b22", "#e39b21", "#2d8a4e", "#1668b8",
+				       "#8a6d2d", "#7a4fb0", "#b0508f", "#777"};
+	const double widest = 8; // mm
+	std::vector<Line> lines;
+	for (size_t i = 0; i < std::size(methods); i++) {
+		const double shots = static_cast<double>(errors[i].size());
+		std::sort(errors[i].begin(), errors[i].end());
+		Line line = {methods[i].name, colours[i], {}, methods[i].ours < 0};
+		for (size_t n = 0; n < errors[i].size() && 1e3 * errors[i][n] <= widest; n++)
+			line.points.push_back({1e3 * errors[i][n], 100 * static_cast<double>(n + 1) / shots});
+		lines.push_back(line);
+	}
+	write_chart(path, "Balls at rest under seven lights: points with an error of at most ...",
+		    {"error in space, mm", 0, widest, 1}, {"points, %", 0, 100, 20}, lines);
 }
 
 } // namespace
@@ -337,19 +366,33 @@ int bench::accuracy(int argc, char **argv)
 	options.integer("--seeds", "2", "pictures of each place", &settings.seeds, 1, 1000);
 	options.integer("--first-seed", "1", "the first seed", &settings.first_seed, 0, 1000000);
 	options.text("--rig", "FILE", "a calibration to locate with, instead of the true one", &settings.rig);
+	options.text("--figure", "FILE", "also draw how the errors at rest are distributed, as SVG", &settings.figure);
+	options.text("--only", "NAME", "only this condition, as the first column names it", &settings.only);
 	if (!options.parse(argc, argv))
 		return 0;
+	const auto chosen = [&](const Condition &condition) {
+		return settings.only.empty() || settings.only == name_of(condition);
+	};
+	if (std::none_of(std::begin(conditions), std::end(conditions), chosen))
+		throw pong::UsageError("--only " + settings.only + ": there is no such condition");
+	std::vector<double> at_rest[std::size(methods)];
 	printf("# light method shots points mean_mm max_mm bias_u bias_v sd_u sd_v nees2 nees3 us\n");
 	for (const Condition &condition : conditions) {
 		if (pong::stop_requested())
 			break;
+		if (!chosen(condition))
+			continue;
 		Score scores[std::size(methods)], bound;
 		measure(condition, settings, scores, &bound);
 		for (size_t i = 0; i < std::size(methods); i++)
 			print_row(condition, methods[i], scores[i]);
-		printf("%s Cramer-Rao %d %d %.3f - - - - - - - -\n", name_of(condition).c_str(), bound.points,
-		       bound.points, 1e3 * bound.error / std::max(bound.points, 1));
+		printf("%s Cramer-Rao %zu %zu %.3f - - - - - - - -\n", name_of(condition).c_str(), bound.errors.size(),
+		       bound.errors.size(), 1e3 * mean(bound.errors));
+		for (size_t i = 0; i < std::size(methods) && condition.speed == 0; i++)
+			at_rest[i].insert(at_rest[i].end(), scores[i].errors.begin(), scores[i].errors.end());
 		fflush(stdout);
 	}
+	if (!settings.figure.empty())
+		draw_errors(settings.figure, at_rest);
 	return 0;
 }

@@ -76,7 +76,13 @@ std::vector<Shot> Studio::follow(const Eigen::Vector3d &position, const Eigen::V
 	const double middle = 0.25; // m
 	Eigen::Vector3d in_sight = velocity;
 	in_sight.y() = std::copysign(velocity.y(), position.y() - middle);
-	const sim::Episode episode = make_episode(position, in_sight, lead);
+	// A ball at the table's surface would bounce in the exposure, or just before: it is raised until it does so
+	// later.
+	const Eigen::Vector3d clearance(0, 0.01, 0); // m
+	Eigen::Vector3d raised = position;
+	while (!make_episode(raised - clearance, in_sight, lead).flight->bounces().empty())
+		raised.y() += 0.005;
+	const sim::Episode episode = make_episode(raised, in_sight, lead);
 	std::vector<Shot> shots;
 	for (int i = earlier; i >= 0; i--) {
 		Shot shot;
