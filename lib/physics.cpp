@@ -130,10 +130,11 @@ void Physics::step(const Parameters &parameters, double duration, Motion &motion
 }
 
 // A ball on the table, before friction pushes it: how its lowest point slips along the table, s = v_t + w x (0, -r, 0),
-// and which part of that slip friction can end by sliding, mu (1 + e) |v_y| / |s|, and which by rolling, 2/5 (1 +
-// grip), of an elastic ball that is turned over (Nakashima et al. 2010; Cross 2002). With their rates.
+// and how fast friction can push it there, m/s: by sliding mu (1 + e) |v_y|, and by rolling 2/5 (1 + grip) |s|, of an
+// elastic ball that is turned over (Nakashima et al. 2010; Cross 2002). With their rates.
 struct Physics::Contact {
-	Vector3 slip;
+	Vector3 along; // the direction of the slip
+	double speed;
 	Rates slip_rates;
 	double sliding, rolling;
 	RowRates sliding_rates, rolling_rates;
@@ -142,34 +143,33 @@ struct Physics::Contact {
 Physics::Contact Physics::contact(const Parameters &parameters, const Motion &motion) const
 {
 	const double e = parameters[PONG_STATE_RESTITUTION], mu = parameters[PONG_STATE_FRICTION];
-	const double fall = -motion.velocity.y();
-	Contact contact = {
-		{motion.velocity.x() + radius_ * motion.spin.z(), 0, motion.velocity.z() - radius_ * motion.spin.x()},
-		motion.velocity_rates,
-		0,
-		0,
-		RowRates::Zero(),
-		RowRates::Zero()};
+	const double fall = -motion.velocity.y(), part = rolling_part * (1 + parameters[PONG_STATE_GRIP]);
+	const Vector3 slip(motion.velocity.x() + radius_ * motion.spin.z(), 0,
+			   motion.velocity.z() - radius_ * motion.spin.x());
+	Contact contact;
+	contact.speed = std::max(slip.norm(), least_speed);
+	contact.along = slip / contact.speed;
+	contact.slip_rates = motion.velocity_rates;
 	contact.slip_rates.row(0) += radius_ * motion.spin_rates.row(2);
 	contact.slip_rates.row(1).setZero();
 	contact.slip_rates.row(2) -= radius_ * motion.spin_rates.row(0);
 
-	const double speed = std::max(contact.slip.norm(), least_speed);
-	contact.sliding = mu * (1 + e) * fall / speed;
-	contact.sliding_rates = -mu * (1 + e) / speed * motion.velocity_rates.row(1) -
-				contact.sliding / (speed * speed) * contact.slip.transpose() * contact.slip_rates;
-	contact.sliding_rates[PONG_STATE_RESTITUTION] += mu * fall / speed;
-	contact.sliding_rates[PONG_STATE_FRICTION] += (1 + e) * fall / speed;
-	contact.rolling = rolling_part * (1 + parameters[PONG_STATE_GRIP]);
-	contact.rolling_rates[PONG_STATE_GRIP] = rolling_part;
+	contact.sliding = mu * (1 + e) * fall;
+	contact.sliding_rates = -mu * (1 + e) * motion.velocity_rates.row(1);
+	contact.sliding_rates[PONG_STATE_RESTITUTION] += mu * fall;
+	contact.sliding_rates[PONG_STATE_FRICTION] += (1 + e) * fall;
+	contact.rolling = part * contact.speed;
+	contact.rolling_rates = part * contact.along.transpose() * contact.slip_rates;
+	contact.rolling_rates[PONG_STATE_GRIP] += rolling_part * contact.speed;
 	return contact;
 }
 
-// Which part of the slip friction ends, the lesser of both. Where it is not sure which one that is, the mean over the
-// normal distribution of their difference (Clark 1961, doi:10.1287/opre.9.2.145): its rates are those of both as often
-// as each is the lesser, and what the rates do not explain of its variance is left.
+// How fast friction pushes, the lesser of both. Where it is not sure which one that is, the mean over the normal
+// distribution of their difference (Clark 1961, doi:10.1287/opre.9.2.145): its rates are those of both as often as each
+// is the lesser, and what the rates do not explain of its variance is left. Where not even the slip's direction is
+// sure, no normal distribution stands for it.
 struct Physics::Push {
-	double part;
+	double speed;
 	RowRates rates;
 	double left;
 };
@@ -179,11 +179,12 @@ Physics::Push Physics::push(const Contact &contact, const ParameterMatrix *covar
 	const double gap = contact.sliding - contact.rolling;
 	const RowRates gap_rates = contact.sliding_rates - contact.rolling_rates;
 	const double variance = covariance ? gap_rates.dot(gap_rates * *covariance) : 0.0;
-	if (!(variance > least_doubt * least_doubt)) {
+	const double sigma = std::sqrt(variance);
+	if (!(sigma > least_doubt) || sigma > contact.rolling) {
 		return gap < 0 ? Push{contact.sliding, contact.sliding_rates, 0}
 			       : Push{contact.rolling, contact.rolling_rates, 0};
 	}
-	const double sigma = std::sqrt(variance), score = gap / sigma;
+	const double score = gap / sigma;
 	const double slides = 0.5 * std::erfc(score / std::sqrt(2)); // how probably
 	const double density = std::exp(-0.5 * score * score) / std::sqrt(2 * M_PI);
 	const double mean = gap * slides - sigma * density; // of min(gap, 0)
@@ -199,12 +200,14 @@ void Physics::push_along_table(const Parameters &parameters, const ParameterMatr
 	const Contact contact = this->contact(parameters, motion);
 	const Push push = this->push(contact, covariance);
 	const Vector3 kick(parameters[PONG_STATE_KICK_X], 0, parameters[PONG_STATE_KICK_Z]);
-	const Vector3 change = kick - push.part * contact.slip;
-	Rates change_rates = -push.part * contact.slip_rates - contact.slip * push.rates;
+	const Vector3 change = kick - push.speed * contact.along;
+	const RowRates lengthwise = contact.along.transpose() * contact.slip_rates;
+	Rates change_rates = -push.speed / contact.speed * (contact.slip_rates - contact.along * lengthwise) -
+			     contact.along * push.rates;
 	change_rates(0, PONG_STATE_KICK_X) += 1;
 	change_rates(2, PONG_STATE_KICK_Z) += 1;
-	const Eigen::Vector2d slip(contact.slip.x(), contact.slip.z());
-	scatter += push.left * slip * slip.transpose();
+	const Eigen::Vector2d along(contact.along.x(), contact.along.z());
+	scatter += push.left * along * along.transpose();
 
 	const double lever = spin_per_push / radius_, e = parameters[PONG_STATE_RESTITUTION];
 	motion.velocity_rates.row(1) *= -e;
