@@ -210,13 +210,15 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 
 } // namespace
 
-PONG_CLONES static int count_lit(const Pixels &pixels, int level)
+PONG_CLONES static int count_lit(const Pixels &pixels, int16_t level)
 {
-	int32_t count = 0;
+	int count = 0;
 	for (int v = 0; v < pixels.height; v++) {
 		const int16_t *row = pixels.first + v * pixels.stride;
+		int16_t in_row = 0; // as narrow as the pixels: so many more at once
 		for (int u = 0; u < pixels.width; u++)
-			count += row[u] > level;
+			in_row = static_cast<int16_t>(in_row + (row[u] > level));
+		count += in_row;
 	}
 	return count;
 }
@@ -241,7 +243,7 @@ PONG_CLONES static Moments sum_lit(const Pixels &pixels, int level)
 }
 
 // The part of the frame around an area that is lit.
-static double frame_lit(const Patch &patch, const Area &area, int level)
+static double frame_lit(const Patch &patch, const Area &area, int16_t level)
 {
 	const int out = margin + frame_width;
 	const auto grown = [&](int by) {
@@ -251,7 +253,8 @@ static double frame_lit(const Patch &patch, const Area &area, int level)
 	const Area outer = grown(out), inner = grown(margin);
 	const auto pixels = [](const Area &a) { return (a.u_end - a.u_begin) * (a.v_end - a.v_begin); };
 	const int frame = pixels(outer) - pixels(inner);
-	const int lit = count_lit(pixels_of(patch, outer), level) - count_lit(pixels_of(patch, inner), level);
+	const int16_t dark = static_cast<int16_t>(std::min<int>(level, INT16_MAX)); // a level is less than that
+	const int lit = count_lit(pixels_of(patch, outer), dark) - count_lit(pixels_of(patch, inner), dark);
 	return frame > 0 ? double(lit) / frame : 0;
 }
 
