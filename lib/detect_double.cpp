@@ -31,8 +31,8 @@ const double noise_surprising = 2.5;          // times the usual noise: that is 
 const int reach = 2;                          // cells of a group are so close to each other, in cells
 const int sampled_strips = 4;                 // rows of cells that tell noise and gain
 const int sampled_cells = 64;                 // of each
-const int close_margin = 6;                   // a group is looked at with so many pixels around, px,
-const int close_cells = 2;                    // which lie in so many cells
+const int cells_together = 8;                 // so many are as quickly summed as fewer
+const int close_margin = 6;                   // a group is looked at with so many pixels around, px
 const double close_noise = 1.5;               // the noise of a patch's 3 x 3 mean, over that of a cell's
 const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
 const double shown_anywhere = 0.85;           // of a ball's outline, where something else moves around it,
@@ -72,7 +72,7 @@ public:
 	}
 
 private:
-	Area searched_cells(const pong_window *window) const;
+	Area cells_of(const Area &pixels) const;
 	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells, bool windowed);
 	template<class Visit> void for_each_strip(const Area &cells, Visit visit) const
 	{
@@ -142,9 +142,9 @@ DoubleDifference::DoubleDifference(const pong_region &region, const pong_setting
 	}
 }
 
-Area DoubleDifference::searched_cells(const pong_window *window) const
+// The cells of which an area has a pixel.
+Area DoubleDifference::cells_of(const Area &pixels) const
 {
-	const Area pixels = searched_area(region_.width, region_.height, window);
 	return intersect({0, columns_, 0, rows_},
 			 {pixels.u_begin / cell_size, (pixels.u_end + cell_size - 1) / cell_size,
 			  pixels.v_begin / cell_size, (pixels.v_end + cell_size - 1) / cell_size});
@@ -176,16 +176,10 @@ void fetch(const pong_image &image, const Area &cells)
 	}
 }
 
-// What does not lie beside what is read first: of a window all, of whole pictures the older one's samples.
-void fetch(const pong_pictures &pictures, const Area &cells, bool windowed)
+void fetch(const pong_pictures &pictures, const Area &cells)
 {
-	if (windowed)
-		for (const pong_image *image : {&pictures.current, &pictures.earlier[0], &pictures.earlier[1]})
-			fetch(*image, cells);
-	else
-		for_each_sampled_row(cells, [&](int row) {
-			fetch(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1});
-		});
+	for (const pong_image *image : {&pictures.current, &pictures.earlier[0], &pictures.earlier[1]})
+		fetch(*image, cells);
 }
 
 // Samples of a few strips, and what they say.
@@ -220,15 +214,15 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 	return {gains, std::max(noise_, noise_least)};
 }
 
-// One picture after the other: memory sends what lies beside each other faster than what lies in two places.
+// A strip of one picture, then of the other: while one is summed, memory sends the next strip of the other.
 void DoubleDifference::sum_pictures(const pong_pictures &pictures, const Area &cells)
 {
 	const auto sum_strip = [&](const pong_image &image, const Area &strip, std::vector<uint16_t> &sums) {
 		sum_cells(corner(image, strip.u_begin, strip.v_begin), image.stride, strip.u_end - strip.u_begin,
 			  &sums[cell(strip.u_begin, strip.v_begin)]);
 	};
-	for_each_strip(cells, [&](const Area &strip) { sum_strip(pictures.current, strip, now_); });
 	for_each_strip(cells, [&](const Area &strip) {
+		sum_strip(pictures.current, strip, now_);
 		sum_strip(pictures.earlier[0], strip, then_);
 		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
 	});
@@ -265,7 +259,8 @@ Area DoubleDifference::differing(const Area &strip, int32_t gain, int32_t thresh
 	Area part = strip;
 	while (!differs(part.u_begin))
 		part.u_begin++;
-	while (!differs(part.u_end - 1))
+	const int least = std::min(part.u_begin + cells_together, strip.u_end);
+	while (part.u_end > least && !differs(part.u_end - 1))
 		part.u_end--;
 	return part;
 }
@@ -305,9 +300,7 @@ void DoubleDifference::light_cells(const pong_image &older, const Conditions &co
 		const Area part = differing(strip, conditions.gains.of[0], threshold);
 		if (part.empty())
 			return;
-		fetch(older,
-		      intersect({0, columns_, 0, rows_}, {part.u_begin - close_cells, part.u_end + close_cells,
-							  part.v_begin - close_cells, part.v_end + close_cells}));
+		fetch(older, part);
 		differing_.push_back(part);
 	});
 	for (const Area &part : differing_)
@@ -374,6 +367,8 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
 	if (extent < limits.size_min / 2)
 		return count;
+	if (!window) // the cache may hold no more what was read long ago
+		fetch(pictures, cells_of(grown(close_margin)));
 	patch_.fill(pictures, conditions.gains, grown(close_margin));
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
@@ -388,10 +383,15 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			     int capacity)
 {
-	const Area cells = searched_cells(window);
+	const Area cells = cells_of(searched_area(region_.width, region_.height, window));
 	if (cells.empty())
 		return 0;
-	fetch(pictures, cells, window != nullptr);
+	if (window)
+		fetch(pictures, cells);
+	else
+		for_each_sampled_row(cells, [&](int row) {
+			fetch(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1});
+		});
 	sum_pictures(pictures, cells);
 	const Conditions conditions = measure_conditions(pictures, cells, window != nullptr);
 	light_cells(pictures.earlier[1], conditions, cells);
