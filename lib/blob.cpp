@@ -28,15 +28,23 @@ const int hull_points_needed = 3;    // of five
 const double hull_longest = 1.5;     // its length over its width
 const size_t hull_rows = 512;        // the largest hull
 
-// Sums over a row of lit pixels, from the row's beginning.
-struct RowSums {
-	int32_t count, u, uu;
-	int32_t level;
+// Pixels of a patch: rows of `width`, `stride` apart.
+struct Pixels {
+	const int16_t *first;
+	ptrdiff_t stride;
+	int width, height;
 };
+
+Pixels pixels_of(const Patch &patch, const Area &area)
+{
+	return {patch.pixel(area.u_begin, area.v_begin), patch.stride(), area.u_end - area.u_begin,
+		area.v_end - area.v_begin};
+}
 
 // Sums over the lit pixels of an area, about its upper left corner.
 struct Moments {
 	double count = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+	double level = 0;
 
 	void add(double row_count, double row_u, double row_uu, double at_v)
 	{
@@ -167,39 +175,27 @@ Moments hull_moments(const Patch &patch, const Area &area, int level)
 	return moments;
 }
 
-int count_lit(const Patch &patch, const Area &area, int level)
-{
-	int count = 0;
-	for (int v = area.v_begin; v < area.v_end; v++) {
-		const int16_t *row = patch.pixel(area.u_begin, v);
-		for (int i = 0; i < area.u_end - area.u_begin; i++)
-			count += row[i] > level;
-	}
-	return count;
-}
-
-// The part of the frame around an area that is lit.
-double frame_lit(const Patch &patch, const Area &area, int level)
-{
-	const int out = margin + frame_width;
-	const auto grown = [&](int by) {
-		return intersect(patch.area(),
-				 {area.u_begin - by, area.u_end + by, area.v_begin - by, area.v_end + by});
-	};
-	const Area outer = grown(out), inner = grown(margin);
-	const auto pixels = [](const Area &a) { return (a.u_end - a.u_begin) * (a.v_end - a.v_begin); };
-	const int frame = pixels(outer) - pixels(inner);
-	return frame > 0 ? double(count_lit(patch, outer, level) - count_lit(patch, inner, level)) / frame : 0;
-}
+// Eighths of a turn.
+struct Direction {
+	double cosine, sine;
+};
+const double root_half = M_SQRT1_2;
+const std::array<Direction, 8> eighths = {{{1, 0},
+					   {root_half, root_half},
+					   {0, 1},
+					   {-root_half, root_half},
+					   {-1, 0},
+					   {-root_half, -root_half},
+					   {0, -1},
+					   {root_half, -root_half}}};
 
 // The five points of the ellipse: of the centre and the four diagonal points inside as many as needed are lit; of the
 // eight around it all but two are dark.
 bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, int needed)
 {
 	const auto lit = [&](double radii, double extra, int eighth) {
-		const double angle = eighth * M_PI / 4;
-		const double a = (radii * ellipse.major + extra) * std::cos(angle);
-		const double b = (radii * ellipse.minor + extra) * std::sin(angle);
+		const double a = (radii * ellipse.major + extra) * eighths[static_cast<size_t>(eighth)].cosine;
+		const double b = (radii * ellipse.minor + extra) * eighths[static_cast<size_t>(eighth)].sine;
 		return patch.at(static_cast<int>(std::lround(ellipse.u + a * ellipse.axis_u - b * ellipse.axis_v)),
 				static_cast<int>(std::lround(ellipse.v + a * ellipse.axis_v + b * ellipse.axis_u))) >
 		       level;
@@ -214,17 +210,52 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 
 } // namespace
 
-PONG_CLONES static RowSums sum_lit(const int16_t *row, int count, int level)
+PONG_CLONES static int count_lit(const Pixels &pixels, int16_t level)
 {
-	RowSums sums = {0, 0, 0, 0};
-	for (int i = 0; i < count; i++) {
-		const int32_t lit = row[i] > level;
-		sums.count += lit;
-		sums.u += lit * i;
-		sums.uu += lit * i * i;
-		sums.level += lit * row[i];
+	int count = 0;
+	for (int v = 0; v < pixels.height; v++) {
+		const int16_t *row = pixels.first + v * pixels.stride;
+		int16_t in_row = 0; // as narrow as the pixels: so many more at once
+		for (int u = 0; u < pixels.width; u++)
+			in_row = static_cast<int16_t>(in_row + (row[u] > level));
+		count += in_row;
 	}
-	return sums;
+	return count;
+}
+
+PONG_CLONES static Moments sum_lit(const Pixels &pixels, int level)
+{
+	Moments moments;
+	for (int v = 0; v < pixels.height; v++) {
+		const int16_t *row = pixels.first + v * pixels.stride;
+		int32_t count = 0, sum_u = 0, sum_uu = 0, sum_level = 0;
+		for (int u = 0; u < pixels.width; u++) {
+			const int32_t lit = row[u] > level;
+			count += lit;
+			sum_u += lit * u;
+			sum_uu += lit * u * u;
+			sum_level += lit * row[u];
+		}
+		moments.add(count, sum_u, sum_uu, v);
+		moments.level += sum_level;
+	}
+	return moments;
+}
+
+// The part of the frame around an area that is lit.
+static double frame_lit(const Patch &patch, const Area &area, int16_t level)
+{
+	const int out = margin + frame_width;
+	const auto grown = [&](int by) {
+		return intersect(patch.area(),
+				 {area.u_begin - by, area.u_end + by, area.v_begin - by, area.v_end + by});
+	};
+	const Area outer = grown(out), inner = grown(margin);
+	const auto pixels = [](const Area &a) { return (a.u_end - a.u_begin) * (a.v_end - a.v_begin); };
+	const int frame = pixels(outer) - pixels(inner);
+	const int16_t dark = static_cast<int16_t>(std::min<int>(level, INT16_MAX)); // a level is less than that
+	const int lit = count_lit(pixels_of(patch, outer), dark) - count_lit(pixels_of(patch, inner), dark);
+	return frame > 0 ? double(lit) / frame : 0;
 }
 
 double lit_level(double contrast, const BallLimits &limits)
@@ -235,14 +266,9 @@ double lit_level(double contrast, const BallLimits &limits)
 bool measure_blob(const Patch &patch, const Area &area, double contrast, const BallLimits &limits, pong_detection *ball)
 {
 	const int level = static_cast<int>(patch_one * lit_level(contrast, limits));
-	Moments lit;
-	double level_sum = 0;
-	for (int v = area.v_begin; v < area.v_end; v++) {
-		const RowSums row = sum_lit(patch.pixel(area.u_begin, v), area.u_end - area.u_begin, level);
-		lit.add(row.count, row.u, row.uu, v - area.v_begin);
-		level_sum += row.level;
-	}
-	if (lit.count < pixels_needed || level_sum / lit.count / patch_one < limits.contrast)
+	const Moments lit = sum_lit(pixels_of(patch, area), level);
+	const double shown = lit.level / lit.count / patch_one; // grey levels
+	if (lit.count < pixels_needed || shown < limits.contrast)
 		return false;
 	Ellipse ellipse(lit, area);
 	int points_needed = 5;
@@ -258,7 +284,7 @@ bool measure_blob(const Patch &patch, const Area &area, double contrast, const B
 	if (!shows_five_points(patch, ellipse, level, points_needed) ||
 	    frame_lit(patch, ellipse.box(), level) > frame_lit_allowed)
 		return false;
-	*ball = {ellipse.u, ellipse.v, ellipse.size(), level_sum / lit.count / patch_one};
+	*ball = {ellipse.u, ellipse.v, ellipse.size(), shown};
 	return true;
 }
 

@@ -24,7 +24,7 @@ Camera::Camera(const pong_camera &camera)
 		R.row(i) = rest / K(i, i);
 	}
 	K /= K(2, 2);
-	centre = -M.partialPivLu().solve(P.col(3));
+	centre = -(M.inverse() * P.col(3));
 }
 
 Vector2 Camera::ideal_pixel(const Vector2 &normal) const

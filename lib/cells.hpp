@@ -12,11 +12,16 @@ const int cell_size = 4; // px
 const int cell_pixels = cell_size * cell_size;
 
 // The sums of `count` cells beside each other; `top` is the first one's upper left pixel.
-void sum_cells(const uint8_t *top, ptrdiff_t stride, int count, uint32_t *sums);
+void sum_cells(const uint8_t *top, ptrdiff_t stride, int count, uint16_t *sums);
 
-// now - gain * then of `count` cells, with gain in 1 / gain_one. Returns whether any lies outside of +- threshold.
+// The same, for processors without the instructions that the former uses where it can.
+void sum_cells_plainly(const uint8_t *top, ptrdiff_t stride, int count, uint16_t *sums);
+
+// Grey levels times a gain, in 1 / gain_one, at most 4.
 const int32_t gain_one = 4096;
-bool subtract_cells(const uint32_t *now, const uint32_t *then, int32_t gain, int32_t threshold, int count,
-		    int32_t *difference);
+void scale_cells(uint16_t *sums, int count, int32_t gain);
+
+// now - then of `count` cells. Returns the greatest magnitude.
+int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference);
 
 } // namespace pong

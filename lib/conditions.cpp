@@ -4,42 +4,66 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "clones.hpp"
+
 namespace pong
 {
 
 namespace
 {
 
-const double gain_deadband = 0.01;    // a gain nearer to 1 is none
-const double offset_deadband = 0.5;   // nor is one that shows less, grey levels
-const double third_of_normal = 0.431; // a third of a normal variable's magnitudes are below, standard deviations
-
-int32_t quantile(int32_t *values, int count, int place)
-{
-	std::nth_element(values, values + place, values + count);
-	return values[place];
-}
+const double gain_deadband = 0.01;           // a gain nearer to 1 is none
+const int offset_deadband = cell_pixels / 2; // nor is a median change of a cell's sum below this: half a grey level
+const double third_of_normal = 0.431;        // a third of a normal variable's magnitudes are below, standard deviations
 
 } // namespace
 
+PONG_CLONES static int count_up_to(const int16_t *values, int count, int limit)
+{
+	int found = 0;
+	for (int i = 0; i < count; i++)
+		found += values[i] <= limit;
+	return found;
+}
+
+// The value that `place` others are not above, sought between bounds that double; to count is quicker than to sort.
+static int quantile(const int16_t *values, int count, int place)
+{
+	int least = -1, most = 1;
+	while (count_up_to(values, count, least) > place)
+		least *= 2;
+	while (count_up_to(values, count, most) <= place)
+		most *= 2;
+	while (least + 1 < most) { // not above least, but above most are more than that
+		const int middle = least + (most - least) / 2;
+		(count_up_to(values, count, middle) > place ? most : least) = middle;
+	}
+	return most;
+}
+
+PONG_CLONES static void differences(const CellSamples &samples, int32_t gain, int16_t *out)
+{
+	for (int i = 0; i < samples.count; i++)
+		out[i] = static_cast<int16_t>(samples.now[i] - samples.then[i] * gain / gain_one);
+}
+
 int32_t measure_gain(const CellSamples &samples)
 {
-	int32_t difference[CellSamples::capacity], scratch[CellSamples::capacity];
+	int16_t difference[CellSamples::capacity], distance[CellSamples::capacity];
 	const int count = samples.count;
 	if (count < 8)
 		return gain_one;
-	for (int i = 0; i < count; i++)
-		scratch[i] = difference[i] =
-			static_cast<int32_t>(samples.now[i]) - static_cast<int32_t>(samples.then[i]);
-	const int32_t offset = quantile(scratch, count, count / 2);
-	if (std::abs(offset) < offset_deadband * cell_pixels)
+	differences(samples, gain_one, difference);
+	if (count_up_to(difference, count, -offset_deadband) <= count / 2 &&
+	    count_up_to(difference, count, offset_deadband - 1) > count / 2)
 		return gain_one;
+	const int offset = quantile(difference, count, count / 2);
 	for (int i = 0; i < count; i++)
-		scratch[i] = std::abs(difference[i] - offset);
-	const int32_t near = quantile(scratch, count, count / 2);
+		distance[i] = static_cast<int16_t>(std::abs(difference[i] - offset));
+	const int near = quantile(distance, count, count / 2);
 	double now = 0, then = 0;
 	for (int i = 0; i < count; i++)
-		if (std::abs(difference[i] - offset) <= near) {
+		if (distance[i] <= near) {
 			now += samples.now[i];
 			then += samples.then[i];
 		}
@@ -51,10 +75,10 @@ double measure_noise(const CellSamples &samples, int32_t gain)
 {
 	if (samples.count == 0)
 		return 0;
-	int32_t magnitude[CellSamples::capacity];
+	int16_t magnitude[CellSamples::capacity];
+	differences(samples, gain, magnitude);
 	for (int i = 0; i < samples.count; i++)
-		magnitude[i] = std::abs(static_cast<int32_t>(samples.now[i]) -
-					static_cast<int32_t>(samples.then[i]) * gain / gain_one);
+		magnitude[i] = static_cast<int16_t>(std::abs(magnitude[i]));
 	return quantile(magnitude, samples.count, samples.count / 3) / (third_of_normal * cell_pixels);
 }
 

@@ -1,8 +1,7 @@
 // The search in a picture for what it shows and two earlier ones don't.
 //
 // 1. Cells of 4 x 4 pixels are compared with the earlier picture's; where they differ by more than the noise, measured
-// in
-//    the pictures themselves, with the older one's too. Most of a picture ends here.
+//    in the pictures themselves, with the older one's too. Most of a picture ends here.
 // 2. Cells that lie outside of both, and are neighbours but for one, are one group: a ball before a bright wall may be
 //    brighter than it above and darker below.
 // 3. A group is looked at close up, pixel by pixel. If what is lit there is a ball, it is one detection.
@@ -32,6 +31,7 @@ const double noise_surprising = 2.5;          // times the usual noise: that is 
 const int reach = 2;                          // cells of a group are so close to each other, in cells
 const int sampled_strips = 4;                 // rows of cells that tell noise and gain
 const int sampled_cells = 64;                 // of each
+const int cells_together = 8;                 // so many are as quickly summed as fewer
 const int close_margin = 6;                   // a group is looked at with so many pixels around, px
 const double close_noise = 1.5;               // the noise of a patch's 3 x 3 mean, over that of a cell's
 const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
@@ -72,11 +72,25 @@ public:
 	}
 
 private:
-	Area searched_cells(const pong_window *window) const;
+	Area cells_of(const Area &pixels) const;
 	Conditions measure_conditions(const pong_pictures &pictures, const Area &cells, bool windowed);
-	void light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells);
-	void light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row, int begin,
-			 int count);
+	template<class Visit> void for_each_strip(const Area &cells, Visit visit) const
+	{
+		for (int row = cells.v_begin; row < cells.v_end; row++) {
+			const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
+			if (!strip.empty())
+				visit(strip);
+		}
+	}
+	void sum_pictures(const pong_pictures &pictures, const Area &cells);
+	void light_cells(const pong_image &older, const Conditions &conditions, const Area &cells);
+	int subtract(const Area &strip);
+	Area differing(const Area &strip, int32_t gain, int32_t threshold);
+	void light_strip(const pong_image &older, int32_t gain, int32_t threshold, const Area &strip);
+	size_t cell(int column, int row) const
+	{
+		return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+	}
 	Group take_group(int first);
 	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 		    const Conditions &conditions, pong_detection *found, int count, int capacity);
@@ -90,8 +104,11 @@ private:
 	std::vector<int32_t> lit_;   // by cell, with a border: how far outside of both, 0 if not lit
 	std::vector<int> lit_cells_; // places in lit_, in the order of scan
 	std::vector<int> stack_;
-	std::vector<uint32_t> now_, earlier_; // one row of cells
-	std::vector<int32_t> to_then_, to_before_;
+	std::vector<uint16_t> now_, then_; // cells of the current and the earlier picture
+	std::vector<int> change_;          // by row of cells, the greatest between them
+	std::vector<uint16_t> before_;     // one row of the older picture
+	std::vector<int16_t> to_then_, to_before_;
+	std::vector<Area> differing_; // parts of rows that the earlier picture does not show
 	Patch patch_;
 	double noise_ = 0; // of a cell, as whole pictures have shown it, grey levels; 0: none has yet
 	bool cluttered_ = false;
@@ -105,10 +122,13 @@ DoubleDifference::DoubleDifference(const pong_region &region, const pong_setting
 	lit_.resize(cells);
 	lit_cells_.reserve(cells);
 	stack_.reserve(cells);
-	for (auto *row : {&now_, &earlier_})
-		row->resize(static_cast<size_t>(columns_));
+	for (auto *picture : {&now_, &then_})
+		picture->resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+	change_.resize(static_cast<size_t>(rows_));
+	before_.resize(static_cast<size_t>(columns_));
 	for (auto *row : {&to_then_, &to_before_})
 		row->resize(static_cast<size_t>(columns_));
+	differing_.reserve(static_cast<size_t>(rows_));
 	for (int row = 0; row < rows_; row++) {
 		Area strip = {columns_, 0, row, row + 1};
 		for (int v = row * cell_size; v < (row + 1) * cell_size; v++) {
@@ -122,12 +142,20 @@ DoubleDifference::DoubleDifference(const pong_region &region, const pong_setting
 	}
 }
 
-Area DoubleDifference::searched_cells(const pong_window *window) const
+// The cells of which an area has a pixel.
+Area DoubleDifference::cells_of(const Area &pixels) const
 {
-	const Area pixels = searched_area(region_.width, region_.height, window);
 	return intersect({0, columns_, 0, rows_},
 			 {pixels.u_begin / cell_size, (pixels.u_end + cell_size - 1) / cell_size,
 			  pixels.v_begin / cell_size, (pixels.v_end + cell_size - 1) / cell_size});
+}
+
+// Rows of cells here and there.
+template<class Visit> void for_each_sampled_row(const Area &cells, Visit visit)
+{
+	const int height = cells.v_end - cells.v_begin, strips = std::min(sampled_strips, height);
+	for (int strip = 0; strip < strips; strip++)
+		visit(cells.v_begin + (2 * strip + 1) * height / (2 * strips));
 }
 
 const uint8_t *corner(const pong_image &image, int column, int row)
@@ -135,30 +163,48 @@ const uint8_t *corner(const pong_image &image, int column, int row)
 	return image.pixels + row * cell_size * image.stride + column * cell_size;
 }
 
+// Have the memory send the pixels of an area of cells, and do something else meanwhile.
+void fetch(const pong_image &image, const Area &cells)
+{
+	const int cache_line = 64; // bytes
+	const int last = (cells.u_end - cells.u_begin) * cell_size - 1;
+	for (int v = cells.v_begin * cell_size; v < cells.v_end * cell_size; v++) {
+		const uint8_t *pixels = image.pixels + v * image.stride + cells.u_begin * cell_size;
+		for (int i = 0; i < last; i += cache_line)
+			__builtin_prefetch(pixels + i);
+		__builtin_prefetch(pixels + last);
+	}
+}
+
+void fetch(const pong_pictures &pictures, const Area &cells)
+{
+	for (const pong_image *image : {&pictures.current, &pictures.earlier[0], &pictures.earlier[1]})
+		fetch(*image, cells);
+}
+
 // Samples of a few strips, and what they say.
 Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, const Area &cells, bool windowed)
 {
 	CellSamples samples[2]; // the current picture against each of the earlier ones
-	const int strips = std::min(sampled_strips, cells.v_end - cells.v_begin);
 	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
-	for (int strip = 0; strip < strips; strip++) {
-		const int row = cells.v_begin + (2 * strip + 1) * (cells.v_end - cells.v_begin) / (2 * strips);
-		const auto sums = [&](const pong_image &image) {
-			sum_cells(corner(image, cells.u_begin, row), image.stride, columns, earlier_.data());
-			return earlier_.data();
-		};
-		const auto sample = [&](const uint32_t *in, int begin, uint32_t *out) {
+	for_each_sampled_row(cells, [&](int row) {
+		const auto sample = [&](const uint16_t *in, int begin, uint16_t *out) {
 			for (int i = 0; i * every < columns; i++)
 				out[begin + i] = in[i * every];
 		};
 		const int begin = samples[0].count;
-		sample(sums(pictures.current), begin, samples[0].now);
+		const pong_image &older = pictures.earlier[1];
+		sum_cells(corner(older, cells.u_begin, row), older.stride, columns, before_.data());
+		sample(&now_[cell(cells.u_begin, row)], begin, samples[0].now);
 		std::copy_n(samples[0].now + begin, sampled_cells, samples[1].now + begin);
-		sample(sums(pictures.earlier[0]), begin, samples[0].then);
-		sample(sums(pictures.earlier[1]), begin, samples[1].then);
+		sample(&then_[cell(cells.u_begin, row)], begin, samples[0].then);
+		sample(before_.data(), begin, samples[1].then);
 		samples[0].count = samples[1].count = begin + (columns + every - 1) / every;
-	}
+	});
 	Gains gains = {{measure_gain(samples[0]), measure_gain(samples[1])}};
+	const bool flickers = gains.of[0] != gain_one || gains.of[1] != gain_one;
+	if (windowed && !flickers)
+		return {gains, std::max(noise_, noise_least)};
 	const double noise = measure_noise(samples[0], gains.of[0]);
 	if (!windowed)
 		noise_ += (noise_ > 0 ? noise_learned : 1) * (std::clamp(noise, noise_least, noise_most) - noise_);
@@ -168,44 +214,97 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 	return {gains, std::max(noise_, noise_least)};
 }
 
-// Light the cells of one strip that lie outside of both earlier pictures.
-void DoubleDifference::light_strip(const pong_pictures &pictures, const Gains &gains, int32_t threshold, int row,
-				   int begin, int count)
+// A strip of one picture, then of the other: while one is summed, memory sends the next strip of the other.
+void DoubleDifference::sum_pictures(const pong_pictures &pictures, const Area &cells)
 {
-	const auto sums = [&](const pong_image &image, std::vector<uint32_t> &out) {
-		sum_cells(corner(image, begin, row), image.stride, count, out.data());
+	const auto sum_strip = [&](const pong_image &image, const Area &strip, std::vector<uint16_t> &sums) {
+		sum_cells(corner(image, strip.u_begin, strip.v_begin), image.stride, strip.u_end - strip.u_begin,
+			  &sums[cell(strip.u_begin, strip.v_begin)]);
 	};
-	sums(pictures.current, now_);
-	sums(pictures.earlier[0], earlier_);
-	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[0], threshold, count, to_then_.data()))
+	for_each_strip(cells, [&](const Area &strip) {
+		sum_strip(pictures.current, strip, now_);
+		sum_strip(pictures.earlier[0], strip, then_);
+		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
+	});
+	// Samples are taken beside the region too.
+	for_each_sampled_row(cells, [&](int row) {
+		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
+		if (strip.u_begin == cells.u_begin && strip.u_end == cells.u_end)
+			return;
+		sum_strip(pictures.current, {cells.u_begin, cells.u_end, row, row + 1}, now_);
+		sum_strip(pictures.earlier[0], {cells.u_begin, cells.u_end, row, row + 1}, then_);
+	});
+}
+
+// The greatest change of a strip's cells.
+int DoubleDifference::subtract(const Area &strip)
+{
+	const size_t first = cell(strip.u_begin, strip.v_begin);
+	return subtract_cells(&now_[first], &then_[first], strip.u_end - strip.u_begin, to_then_.data());
+}
+
+// The part of a strip, from its first to its last cell, that differs from the earlier picture by more than the
+// threshold.
+Area DoubleDifference::differing(const Area &strip, int32_t gain, int32_t threshold)
+{
+	if (gain != gain_one)
+		scale_cells(&then_[cell(strip.u_begin, strip.v_begin)], strip.u_end - strip.u_begin, gain);
+	else if (change_[static_cast<size_t>(strip.v_begin)] <= threshold)
+		return {0, 0, 0, 0};
+	if (subtract(strip) <= threshold)
+		return {0, 0, 0, 0};
+	const auto differs = [&](int column) {
+		return std::abs(to_then_[static_cast<size_t>(column - strip.u_begin)]) > threshold;
+	};
+	Area part = strip;
+	while (!differs(part.u_begin))
+		part.u_begin++;
+	const int least = std::min(part.u_begin + cells_together, strip.u_end);
+	while (part.u_end > least && !differs(part.u_end - 1))
+		part.u_end--;
+	return part;
+}
+
+// Light the cells of a part of a strip that lie outside of both earlier pictures.
+void DoubleDifference::light_strip(const pong_image &older, int32_t gain, int32_t threshold, const Area &strip)
+{
+	const int count = strip.u_end - strip.u_begin;
+	const size_t first = cell(strip.u_begin, strip.v_begin);
+	sum_cells(corner(older, strip.u_begin, strip.v_begin), older.stride, count, before_.data());
+	if (gain != gain_one)
+		scale_cells(before_.data(), count, gain);
+	if (subtract_cells(&now_[first], before_.data(), count, to_before_.data()) <= threshold)
 		return;
-	sums(pictures.earlier[1], earlier_);
-	if (!subtract_cells(now_.data(), earlier_.data(), gains.of[1], threshold, count, to_before_.data()))
-		return;
+	subtract_cells(&now_[first], &then_[first], count, to_then_.data());
 	for (int i = 0; i < count; i++) {
 		const int32_t a = to_then_[static_cast<size_t>(i)], b = to_before_[static_cast<size_t>(i)];
 		const int32_t beyond = (a > 0) == (b > 0) ? std::min(std::abs(a), std::abs(b)) : 0;
 		if (beyond <= threshold)
 			continue;
-		const int place = (row + reach) * (columns_ + 2 * reach) + begin + i + reach;
+		const int place = (strip.v_begin + reach) * (columns_ + 2 * reach) + strip.u_begin + i + reach;
 		lit_[static_cast<size_t>(place)] = beyond;
 		lit_cells_.push_back(place);
 	}
 }
 
-void DoubleDifference::light_cells(const pong_pictures &pictures, const Conditions &conditions, const Area &cells)
+// The older picture is read only where the earlier one differs.
+void DoubleDifference::light_cells(const pong_image &older, const Conditions &conditions, const Area &cells)
 {
 	for (const int place : lit_cells_)
 		lit_[static_cast<size_t>(place)] = 0;
 	lit_cells_.clear();
 	const double least = std::max(noise_factor * conditions.noise, contrast_part * contrast_);
 	const int32_t threshold = static_cast<int32_t>(cell_pixels * least);
-	for (int row = cells.v_begin; row < cells.v_end; row++) {
-		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
-		if (strip.empty())
-			continue;
-		light_strip(pictures, conditions.gains, threshold, row, strip.u_begin, strip.u_end - strip.u_begin);
-	}
+	differing_.clear();
+	for_each_strip(cells, [&](const Area &strip) {
+		const Area part = differing(strip, conditions.gains.of[0], threshold);
+		if (part.empty())
+			return;
+		fetch(older, part);
+		differing_.push_back(part);
+	});
+	for (const Area &part : differing_)
+		light_strip(older, conditions.gains.of[1], threshold, part);
 }
 
 // Collect the lit cells close to the first one, and take them out.
@@ -268,6 +367,8 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
 	if (extent < limits.size_min / 2)
 		return count;
+	if (!window) // the cache may hold no more what was read long ago
+		fetch(pictures, cells_of(grown(close_margin)));
 	patch_.fill(pictures, conditions.gains, grown(close_margin));
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
@@ -282,11 +383,18 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			     int capacity)
 {
-	const Area cells = searched_cells(window);
+	const Area cells = cells_of(searched_area(region_.width, region_.height, window));
 	if (cells.empty())
 		return 0;
+	if (window)
+		fetch(pictures, cells);
+	else
+		for_each_sampled_row(cells, [&](int row) {
+			fetch(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1});
+		});
+	sum_pictures(pictures, cells);
 	const Conditions conditions = measure_conditions(pictures, cells, window != nullptr);
-	light_cells(pictures, conditions, cells);
+	light_cells(pictures.earlier[1], conditions, cells);
 	cluttered_ = false;
 	int count = 0;
 	for (const int place : lit_cells_)

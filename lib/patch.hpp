@@ -33,17 +33,23 @@ public:
 		return area_.contains(u, v) ? *pixel(u, v) : 0;
 	}
 
-	// The same, from the pixel (u, v) of the area onwards.
+	// The same, from the pixel (u, v) of the area onwards; the next row of it lies `stride` farther.
 	const int16_t *pixel(int u, int v) const
 	{
-		return &level_[static_cast<size_t>(v - area_.v_begin) * stride_ +
-			       static_cast<size_t>(u - area_.u_begin)];
+		return level_.data() + (v - area_.v_begin) * stride() + (u - area_.u_begin);
+	}
+
+	// No more than the area is wide, so that the cache holds it.
+	ptrdiff_t stride() const
+	{
+		return area_.u_end - area_.u_begin;
 	}
 
 private:
 	Area area_ = {0, 0, 0, 0};
-	size_t stride_;
-	std::vector<int16_t> beyond_, across_, level_; // by pixel; summed over 3 of a row; and over 3 x 3
+	std::vector<int16_t> then_, before_,
+		beyond_;                      // of a row: the earlier pictures in today's light; how far outside
+	std::vector<int16_t> across_, level_; // by pixel: summed over 3 of a row, and over 3 x 3
 };
 
 const int patch_one = 9; // a grey level

@@ -224,25 +224,38 @@ TEST(Cells, SumsAreThoseOfTheirPixels)
 	std::vector<uint8_t> pixels(4 * stride);
 	std::mt19937 random(1);
 	std::generate(pixels.begin(), pixels.end(), [&] { return static_cast<uint8_t>(random()); });
-	uint32_t sums[count];
+	uint16_t sums[count], plain[count];
 	pong::sum_cells(pixels.data(), stride, count, sums);
+	pong::sum_cells_plainly(pixels.data(), stride, count, plain);
 	for (int i = 0; i < count; i++) {
 		uint32_t expected = 0;
 		for (int row = 0; row < 4; row++)
 			for (int column = 0; column < 4; column++)
 				expected += pixels[static_cast<size_t>(row * stride + 4 * i + column)];
 		EXPECT_EQ(sums[i], expected) << i;
+		EXPECT_EQ(plain[i], expected) << i;
 	}
 }
 
-TEST(Cells, DifferencesKnowTheirThreshold)
+TEST(Cells, DifferencesAreThoseOfTheirSums)
 {
-	const uint32_t now[] = {100, 200, 300}, then[] = {100, 190, 310};
-	int32_t difference[3];
-	EXPECT_FALSE(pong::subtract_cells(now, then, pong::gain_one, 10, 3, difference));
-	EXPECT_TRUE(pong::subtract_cells(now, then, pong::gain_one, 9, 3, difference));
-	EXPECT_EQ(difference[1], 10);
-	EXPECT_EQ(difference[2], -10);
+	const int count = 45;
+	uint16_t now[count], then[count];
+	int16_t difference[count];
+	std::mt19937 random(3);
+	for (int i = 0; i < count; i++) {
+		now[i] = random() % 4081;
+		then[i] = random() % 4081;
+	}
+	int greatest = 0;
+	for (int i = 0; i < count; i++)
+		greatest = std::max(greatest, std::abs(now[i] - then[i]));
+	EXPECT_EQ(pong::subtract_cells(now, then, count, difference), greatest);
+	for (int i = 0; i < count; i++)
+		EXPECT_EQ(difference[i], now[i] - then[i]);
+	pong::scale_cells(then, count, pong::gain_one * 5 / 4);
+	for (int i = 0; i < count; i++)
+		EXPECT_EQ(then[i], (now[i] - difference[i]) * 5 / 4);
 }
 
 // Gain and noise of what rests, though a third of the samples move.
@@ -254,8 +267,8 @@ TEST(Conditions, WhatMovesHasNoSay)
 	samples.count = 240;
 	for (int i = 0; i < samples.count; i++) {
 		const double level = 60 + i % 80;
-		samples.then[i] = static_cast<uint32_t>(16 * level);
-		samples.now[i] = static_cast<uint32_t>(16 * (1.08 * level + cell_noise(random) + (i % 3 ? 0 : 60)));
+		samples.then[i] = static_cast<uint16_t>(16 * level);
+		samples.now[i] = static_cast<uint16_t>(16 * (1.08 * level + cell_noise(random) + (i % 3 ? 0 : 60)));
 	}
 	const int32_t gain = pong::measure_gain(samples);
 	EXPECT_NEAR(gain / double(pong::gain_one), 1.08, 0.01);
