@@ -26,6 +26,7 @@ const double first_speed = 20;        // of a ball that was seen but once, at mo
 const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
 const double very_fresh = 20;         // or, where its centres agree less well, by so much
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
+const double farthest_doubt = 2;      // it cannot be worse: the ball may be another one
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
@@ -80,7 +81,7 @@ double cost_of(const pong_eye &eye, const pong_state *expected, const Match &mat
 	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm() : 0;
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return expected ? distance : -contrast;
-	return match.doubt + distance / doubtful_distance;
+	return match.doubt + std::min(distance / doubtful_distance, farthest_doubt);
 }
 
 // Two places that look like a ball: one ball, if their centres agree.
@@ -118,7 +119,9 @@ bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
 double freshness(const pong_eye &eye, const Match &match)
 {
-	return std::min(eye.side[PONG_LEFT].freshness(*match.left), eye.side[PONG_RIGHT].freshness(*match.right));
+	const pong_centre &left = *match.left, &right = *match.right;
+	return std::min(eye.side[PONG_LEFT].freshness(left.u, left.v, left.radius),
+			eye.side[PONG_RIGHT].freshness(right.u, right.v, right.radius));
 }
 
 // Something else moves, too.

@@ -71,7 +71,23 @@ double difference(const pong_image &previous, const Disc &disc, int du, int dv, 
 	return 2 * count >= disc.count ? std::min(most, static_cast<double>(sum) / count) : most;
 }
 
+const int motion = 4;         // px, to all sides
+const int rows_compared = 24; // of an area
+const int unlike = 40;        // more does not count, grey levels: a ball is not to be followed
+
 } // namespace
+
+// The sum of how much pixels differ from the more alike of two others.
+PONG_CLONES static int32_t row_difference(const uint8_t *now, const uint8_t *one, const uint8_t *other, int count)
+{
+	int32_t sum = 0;
+	for (int i = 0; i < count; i++) {
+		const int32_t a = std::abs(now[i] - one[i]), b = std::abs(now[i] - other[i]);
+		const int32_t less = a < b ? a : b;
+		sum += less < unlike ? less : unlike;
+	}
+	return sum;
+}
 
 // The least of the sums of differences of a cell from `across` places beside each other.
 PONG_CLONES static int32_t least_difference(const uint8_t *cell, const uint8_t *then, ptrdiff_t then_stride)
@@ -120,6 +136,49 @@ bool is_fresh_cell(const pong_image &now, const pong_image &previous, int32_t ga
 		    cell_pixels * level)
 			return false;
 	return true;
+}
+
+namespace
+{
+
+pong_image moved(const pong_image &image, int du, int dv)
+{
+	return {image.pixels + dv * image.stride + du, image.width, image.height, image.stride};
+}
+
+// The motion that best explains the area together with another one, or by itself.
+pong_image best_moved(const pong_image &now, const pong_image &earlier, const Area &area, const pong_image *other)
+{
+	const int every = std::max(1, (area.v_end - area.v_begin) / rows_compared);
+	const int up = std::min(motion, area.v_begin), down_most = std::min(motion, now.height - area.v_end);
+	const int left = std::min(motion, area.u_begin), right = std::min(motion, now.width - area.u_end);
+	pong_image best = earlier;
+	int32_t least = INT32_MAX;
+	for (int dv = -up; dv <= down_most; dv++)
+		for (int du = -left; du <= right; du++) {
+			const pong_image candidate = moved(earlier, du, dv);
+			int32_t sum = std::abs(du) + std::abs(dv); // what rests, rather than what moves
+			for (int v = area.v_begin; v < area.v_end && sum < least; v += every) {
+				const auto row = [&](const pong_image &image) {
+					return image.pixels + v * image.stride + area.u_begin;
+				};
+				sum += row_difference(row(now), row(candidate), row(other ? *other : candidate),
+						      area.u_end - area.u_begin);
+			}
+			if (sum < least) {
+				least = sum;
+				best = candidate;
+			}
+		}
+	return best;
+}
+
+} // namespace
+
+Moved follow_motion(const pong_image &now, const pong_image &earlier, const Area &area)
+{
+	const pong_image first = best_moved(now, earlier, area, nullptr);
+	return {{first, best_moved(now, earlier, area, &first)}};
 }
 
 double freshness(const pong_image &now, const pong_image &previous, int32_t gain, double u, double v, double radius)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cells.hpp"
+#include "detector.hpp"
 
 namespace pong
 {
@@ -17,5 +18,12 @@ bool is_fresh_cell(const pong_image &now, const pong_image &previous, int32_t ga
 // How much the inside of a circle differs from what is most alike in the picture before, as far from it as people move:
 // mean over the pixels, grey levels.
 double freshness(const pong_image &now, const pong_image &previous, int32_t gain, double u, double v, double radius);
+
+// An earlier picture, moved as what an area shows has moved since: in two ways, for an arm and what is behind it. Only
+// in the area may they be looked at.
+struct Moved {
+	pong_image image[2];
+};
+Moved follow_motion(const pong_image &now, const pong_image &earlier, const Area &area);
 
 } // namespace pong

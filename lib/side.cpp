@@ -17,6 +17,8 @@ namespace
 const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
 const double faint_error = 0.1; // of its centre then, radii
 const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
+const double fresh_enough = 12; // of what has just come: the picture before shows what is behind it, grey levels
+const double around_ball = 12;  // what its location may look at, px
 const int located_at_once = 2;  // more are only located where the other camera sees something that agrees
 
 pong_region *make_region(const pong_rig &rig, pong_side side, const pong_settings &settings)
@@ -65,10 +67,37 @@ void Side::look(const Expectation &expected)
 		return;
 	const pong_image previous = pictures_.earlier(1);
 	count_ = detect(*detector_, compared(), &previous, expected.windowed ? &expected.window : nullptr, found_,
-			balls_capacity);
+			places_capacity);
+	std::fill_n(before_moved_, count_, false);
+	if (cluttered() && !expected.windowed)
+		add_moved();
 	std::fill_n(known_, count_, unknown);
 	if (count_ <= located_at_once || settings_.detect.method == PONG_DETECT_DIFFERENCE)
 		locate_all();
+}
+
+// Amid people, what is behind a ball that has just come has moved since the earlier pictures: it may be located better
+// before the previous picture, moved likewise.
+void Side::add_moved()
+{
+	const int places = count_;
+	for (int i = 0; i < places; i++)
+		if (freshness(found_[i].u, found_[i].v, found_[i].size / 2) > fresh_enough) {
+			before_moved_[count_] = true;
+			found_[count_++] = found_[i];
+		}
+}
+
+pong_pictures Side::moved_around(const pong_detection &found) const
+{
+	const double reach = found.size + around_ball;
+	const auto begin = [&](double at) { return std::max(0, static_cast<int>(at - reach)); };
+	const auto end = [&](double at, int most) { return std::min(most, static_cast<int>(at + reach) + 1); };
+	const pong_image now = pictures_.earlier(0);
+	const Moved moved = follow_motion(
+		now, pictures_.earlier(1),
+		{begin(found.u), end(found.u, camera_.width), begin(found.v), end(found.v, camera_.height)});
+	return {now, {moved.image[0], moved.image[1]}};
 }
 
 void Side::locate_all()
@@ -78,6 +107,7 @@ void Side::locate_all()
 		if (!ball(i))
 			continue;
 		found_[kept] = found_[i];
+		before_moved_[kept] = before_moved_[i];
 		balls_[kept] = balls_[i];
 		known_[kept++] = ball_there;
 	}
@@ -86,9 +116,9 @@ void Side::locate_all()
 
 // The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
 // detection's own centre stands.
-bool Side::locate(const pong_detection &found, pong_centre *centre) const
+bool Side::locate(const pong_detection &found, bool before_moved, pong_centre *centre) const
 {
-	const pong_pictures pictures = compared();
+	const pong_pictures pictures = before_moved ? moved_around(found) : compared();
 	if (settings_.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&camera_, &pictures, &found, expected_.streaked ? expected_.streak : nullptr,
 				   &settings_, centre);
@@ -105,7 +135,7 @@ const Side::Ball *Side::ball(int i)
 {
 	pong_centre &centre = balls_[i].centre;
 	if (known_[i] == unknown) {
-		known_[i] = locate(found_[i], &centre) ? ball_there : no_ball;
+		known_[i] = locate(found_[i], before_moved_[i], &centre) ? ball_there : no_ball;
 		if (known_[i] == ball_there)
 			balls_[i].shown =
 				measure_outline(pictures_.earlier(0), centre.u, centre.v, centre.radius, usual_noise)
@@ -119,10 +149,10 @@ bool Side::cluttered() const
 	return pong::cluttered(*detector_);
 }
 
-double Side::freshness(const pong_centre &centre) const
+double Side::freshness(double u, double v, double radius) const
 {
 	const pong_image now = pictures_.earlier(0), previous = pictures_.earlier(1);
-	return pong::freshness(now, previous, gain_between(now, previous), centre.u, centre.v, centre.radius);
+	return pong::freshness(now, previous, gain_between(now, previous), u, v, radius);
 }
 
 } // namespace pong

@@ -27,7 +27,7 @@ struct Expectation {
 class Side
 {
 public:
-	static const int balls_capacity = 16; // places in one picture that look like a ball
+	static const int places_capacity = 16; // in one picture that look like a ball
 
 	Side(const pong_rig &rig, pong_side side, const pong_settings &settings);
 
@@ -58,12 +58,14 @@ public:
 	bool cluttered() const;
 
 	// How much what is seen there differs from all that was near it in the picture before, grey levels.
-	double freshness(const pong_centre &centre) const;
+	double freshness(double u, double v, double radius) const;
 
 private:
 	void locate_all();
-	bool locate(const pong_detection &found, pong_centre *centre) const;
+	void add_moved();
+	bool locate(const pong_detection &found, bool before_moved, pong_centre *centre) const;
 	pong_pictures compared() const;
+	pong_pictures moved_around(const pong_detection &found) const;
 
 	const pong_camera camera_;
 	const pong_settings settings_;
@@ -72,7 +74,9 @@ private:
 	PictureRing pictures_;
 	Expectation expected_ = {};
 	int count_ = 0;
+	static const int balls_capacity = 2 * places_capacity; // before one background and another
 	pong_detection found_[balls_capacity];
+	bool before_moved_[balls_capacity];
 	Ball balls_[balls_capacity];
 	enum { unknown, ball_there, no_ball } known_[balls_capacity];
 };
