@@ -308,19 +308,25 @@ int DoubleDifference::look_at_fresh(const pong_pictures &pictures, const Conditi
 	const int stride = columns_ + 2 * reach;
 	const double noise = pixel_noise * conditions.noise, level = std::max(fresh_noise * noise, fresh_least);
 	for (const int place : lit_cells_)
-		lit_[static_cast<size_t>(place)] = is_fresh_cell(latest.current, *previous_, gain,
-								 place % stride - reach, place / stride - reach, level);
+		lit_[static_cast<size_t>(place)] *= is_fresh_cell(
+			latest.current, *previous_, gain, place % stride - reach, place / stride - reach, level);
 	for (const int place : lit_cells_) {
 		if (!lit_[static_cast<size_t>(place)])
 			continue;
 		const Group group = take_group(place);
 		if (group.cells < fresh_cells)
 			continue;
-		const Area area = pixels_of(group, fresh_margin);
-		patch_.fill(latest, since.gains, pixels_of(group, fresh_margin + close_margin));
-		count = find_circles(pictures.current, patch_, area,
-				     limits_at((area.v_begin + area.v_end) / 2, nullptr, conditions), noise,
-				     shown_anywhere, found, count, capacity);
+		const Area area = pixels_of(group, fresh_margin),
+			   around = pixels_of(group, fresh_margin + close_margin);
+		const BallLimits limits = limits_at((area.v_begin + area.v_end) / 2, nullptr, conditions);
+		const Moved moved = follow_motion(latest.current, *previous_, around);
+		patch_.fill({latest.current, {moved.image[0], moved.image[1]}}, since.gains, around);
+		pong_detection ball;
+		if (measure_blob(patch_, area, group.contrast(), limits, &ball) && in_region(ball))
+			count = insert_detection(ball, found, count, capacity);
+		patch_.fill(latest, since.gains, around);
+		count = find_circles(pictures.current, patch_, area, limits, noise, shown_anywhere, found, count,
+				     capacity);
 	}
 	return count;
 }
