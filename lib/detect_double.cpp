@@ -40,6 +40,8 @@ const double shown_anywhere = 0.85;           // of a ball's outline, where some
 const double shown_in_window = 0.75;          // and where one is expected there
 const double fresh_noise = 4;                 // what is fresh differs by so many standard deviations of a pixel,
 const double fresh_least = 6;                 // and by so many grey levels
+const double fresh_seen = 12;                 // fainter groups are not seen to be fresh, grey levels
+const int fresh_extent = 48;                  // nor are small ones left to it: they are searched soon, px
 const int fresh_cells = 3;                    // and are so many together;
 const int fresh_margin = 4;                   // a ball's centre is not farther outside of them, px
 const int clutter_cells = 4;                  // noise alone lights no groups of so many cells
@@ -290,7 +292,8 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
 		return in_region(ball) ? insert_detection(ball, found, count, capacity) : count;
 	cluttered_ |= group.cells >= clutter_cells;
-	if (extent < larger * limits.size_min || (previous_ && !window))
+	const bool left_to_fresh = previous_ && !window && group.contrast() >= fresh_seen && extent > fresh_extent;
+	if (extent < larger * limits.size_min || left_to_fresh)
 		return count;
 	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise,
 			    window ? shown_in_window : shown_anywhere, found, count, capacity);

@@ -103,8 +103,9 @@ bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
 	for (int l = 0; l < left.count(); l++)
 		for (int r = 0; r < right.count(); r++) {
 			Match match;
-			if (!may_be_one(eye.rig, left.found(l), right.found(r)) || !left.ball(l) || !right.ball(r) ||
-			    !match_places(eye, *left.ball(l), *right.ball(r), &match))
+			const bool located = left.is_located(l) && right.is_located(r);
+			if (!(located || may_be_one(eye.rig, left.found(l), right.found(r))) || !left.ball(l) ||
+			    !right.ball(r) || !match_places(eye, *left.ball(l), *right.ball(r), &match))
 				continue;
 			const double cost =
 				cost_of(eye, expected, match, left.found(l).contrast + right.found(r).contrast);
@@ -114,6 +115,12 @@ bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
 			}
 		}
 	return best_cost < std::numeric_limits<double>::infinity();
+}
+
+// Whether something moved, where was last looked, that is no ball.
+bool cluttered(const pong_eye &eye)
+{
+	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
 }
 
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
@@ -142,15 +149,16 @@ Trust trust_of(const pong_eye &eye, const Match &match)
 {
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return Trust::usual;
-	if (eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered())
+	if (cluttered(eye))
 		return trust_amid_others(eye, match);
 	return match.doubt < 1 ? Trust::certain : Trust::usual;
 }
 
-// Of a flight that was seen but once, how far the ball can be from there is known.
+// Of a flight that was seen but once, how far the ball can be from there is known. Amid people, where it has been is no
+// longer fresh: it is to be searched for near there.
 bool windows_around_first(pong_eye &eye)
 {
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE || pong_track_count(eye.track.get()) != 1)
+	if (!cluttered(eye) || pong_track_count(eye.track.get()) != 1)
 		return false;
 	const double metres = first_speed * static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
 	bool windowed = true;

@@ -53,6 +53,10 @@ public:
 		double shown;
 	};
 	const Ball *ball(int i);
+	bool is_located(int i) const
+	{
+		return known_[i] == ball_there;
+	}
 
 	// Whether something else moves where was looked.
 	bool cluttered() const;
