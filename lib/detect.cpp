@@ -31,6 +31,15 @@ bool cluttered(const pong_detector &detector)
 	return detector.method->cluttered();
 }
 
+int detect(pong_detector &detector, const pong_pictures &pictures, const pong_image *previous,
+	   const pong_window *window, pong_detection *found, int capacity)
+{
+	if (capacity < 1 || searched_area(detector.width, detector.height, window).empty())
+		return 0;
+	detector.method->set_previous(previous);
+	return detector.method->detect(pictures, window, found, capacity);
+}
+
 } // namespace pong
 
 pong_detector *pong_detector_new(const pong_region *region, const pong_settings *settings, pong_error *error)
@@ -46,7 +55,5 @@ void pong_detector_free(pong_detector *detector)
 int pong_detect(pong_detector *detector, const pong_pictures *pictures, const pong_window *window,
 		pong_detection *found, int capacity)
 {
-	if (capacity < 1 || pong::searched_area(detector->width, detector->height, window).empty())
-		return 0;
-	return detector->method->detect(*pictures, window, found, capacity);
+	return pong::detect(*detector, *pictures, nullptr, window, found, capacity);
 }

@@ -14,6 +14,7 @@
 #include "blob.hpp"
 #include "circles.hpp"
 #include "conditions.hpp"
+#include "fresh.hpp"
 #include "region.hpp"
 
 namespace pong
@@ -37,6 +38,12 @@ const double close_noise = 1.5;               // the noise of a patch's 3 x 3 me
 const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
 const double shown_anywhere = 0.85;           // of a ball's outline, where something else moves around it,
 const double shown_in_window = 0.75;          // and where one is expected there
+const double fresh_noise = 4;                 // what is fresh differs by so many standard deviations of a pixel,
+const double fresh_least = 6;                 // and by so many grey levels
+const double fresh_seen = 12;                 // fainter groups are not seen to be fresh, grey levels
+const int fresh_extent = 48;                  // nor are small ones left to it: they are searched soon, px
+const int fresh_cells = 3;                    // and are so many together;
+const int fresh_margin = 4;                   // a ball's centre is not farther outside of them, px
 const int clutter_cells = 4;                  // noise alone lights no groups of so many cells
 const double pixel_noise = cell_size / 1.414; // a pixel's noise over that of the difference of two cells' means
 
@@ -66,6 +73,11 @@ public:
 	int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 		   int capacity) override;
 
+	void set_previous(const pong_image *previous) override
+	{
+		previous_ = previous;
+	}
+
 	bool cluttered() const override
 	{
 		return cluttered_;
@@ -92,6 +104,9 @@ private:
 		return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
 	}
 	Group take_group(int first);
+	Area pixels_of(const Group &group, int margin) const;
+	int look_at_fresh(const pong_pictures &pictures, const Conditions &conditions, pong_detection *found, int count,
+			  int capacity);
 	int look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 		    const Conditions &conditions, pong_detection *found, int count, int capacity);
 	bool in_region(const pong_detection &ball) const;
@@ -111,6 +126,7 @@ private:
 	std::vector<Area> differing_; // parts of rows that the earlier picture does not show
 	Patch patch_;
 	double noise_ = 0; // of a cell, as whole pictures have shown it, grey levels; 0: none has yet
+	const pong_image *previous_ = nullptr;
 	bool cluttered_ = false;
 };
 
@@ -353,31 +369,73 @@ bool DoubleDifference::in_region(const pong_detection &ball) const
 	return ball.u >= row.begin && ball.u < row.end;
 }
 
+// The pixels of a group, and some around.
+Area DoubleDifference::pixels_of(const Group &group, int margin) const
+{
+	return intersect({0, region_.width, 0, region_.height},
+			 {group.columns[0] * cell_size - margin, (group.columns[1] + 1) * cell_size + margin,
+			  group.rows[0] * cell_size - margin, (group.rows[1] + 1) * cell_size + margin});
+}
+
 // Look at a group close up: one ball, or a ball beside something else.
 int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures, const pong_window *window,
 			      const Conditions &conditions, pong_detection *found, int count, int capacity)
 {
-	const Area picture = {0, region_.width, 0, region_.height};
-	const auto grown = [&](int by) {
-		return intersect(picture, {group.columns[0] * cell_size - by, (group.columns[1] + 1) * cell_size + by,
-					   group.rows[0] * cell_size - by, (group.rows[1] + 1) * cell_size + by});
-	};
-	const Area area = grown(cell_size / 2);
+	const Area area = pixels_of(group, cell_size / 2);
 	const BallLimits limits = limits_at((area.v_begin + area.v_end) / 2, window, conditions);
 	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
 	if (extent < limits.size_min / 2)
 		return count;
+	const Area around = pixels_of(group, close_margin);
 	if (!window) // the cache may hold no more what was read long ago
-		fetch(pictures, cells_of(grown(close_margin)));
-	patch_.fill(pictures, conditions.gains, grown(close_margin));
+		fetch(pictures, cells_of(around));
+	patch_.fill(pictures, conditions.gains, around);
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
 		return in_region(ball) ? insert_detection(ball, found, count, capacity) : count;
 	cluttered_ |= group.cells >= clutter_cells;
-	if (extent < larger * limits.size_min)
+	const bool left_to_fresh = previous_ && !window && group.contrast() >= fresh_seen && extent > fresh_extent;
+	if (extent < larger * limits.size_min || left_to_fresh)
 		return count;
 	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise,
 			    window ? shown_in_window : shown_anywhere, found, count, capacity);
+}
+
+// Search what is fresh since the previous picture for circles. Takes the place of looking for them in all that is new,
+// which is a lot where people move.
+int DoubleDifference::look_at_fresh(const pong_pictures &pictures, const Conditions &conditions, pong_detection *found,
+				    int count, int capacity)
+{
+	const pong_pictures latest = {pictures.current, {*previous_, *previous_}};
+	const int32_t gain = gain_between(latest.current, *previous_);
+	const Conditions since = {{{gain, gain}}, conditions.noise};
+	const Area all = {0, columns_, 0, rows_};
+	sum_pictures(latest, all);
+	light_cells(*previous_, since, all);
+	const int stride = columns_ + 2 * reach;
+	const double noise = pixel_noise * conditions.noise, level = std::max(fresh_noise * noise, fresh_least);
+	for (const int place : lit_cells_)
+		lit_[static_cast<size_t>(place)] *= is_fresh_cell(
+			latest.current, *previous_, gain, place % stride - reach, place / stride - reach, level);
+	for (const int place : lit_cells_) {
+		if (!lit_[static_cast<size_t>(place)])
+			continue;
+		const Group group = take_group(place);
+		if (group.cells < fresh_cells)
+			continue;
+		const Area area = pixels_of(group, fresh_margin),
+			   around = pixels_of(group, fresh_margin + close_margin);
+		const BallLimits limits = limits_at((area.v_begin + area.v_end) / 2, nullptr, conditions);
+		const Moved moved = follow_motion(latest.current, *previous_, around);
+		patch_.fill({latest.current, {moved.image[0], moved.image[1]}}, since.gains, around);
+		pong_detection ball;
+		if (measure_blob(patch_, area, group.contrast(), limits, &ball) && in_region(ball))
+			count = insert_detection(ball, found, count, capacity);
+		patch_.fill(latest, since.gains, around);
+		count = find_circles(pictures.current, patch_, area, limits, noise, shown_anywhere, found, count,
+				     capacity);
+	}
+	return count;
 }
 
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
@@ -400,6 +458,8 @@ int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *w
 	for (const int place : lit_cells_)
 		if (lit_[static_cast<size_t>(place)])
 			count = look_at(take_group(place), pictures, window, conditions, found, count, capacity);
+	if (cluttered_ && previous_ && !window)
+		count = look_at_fresh(pictures, conditions, found, count, capacity);
 	return count;
 }
 

@@ -18,6 +18,11 @@ public:
 	virtual int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			   int capacity) = 0;
 
+	// Tell the picture right before the next search's current one, or null: then what moves slowly may be a ball.
+	virtual void set_previous(const pong_image *)
+	{
+	}
+
 	// Whether something moved where the last search looked that is neither a ball nor noise.
 	virtual bool cluttered() const
 	{
@@ -26,6 +31,10 @@ public:
 };
 
 bool cluttered(const pong_detector &detector);
+
+// As pong_detect, where the picture right before the current one is known.
+int detect(pong_detector &detector, const pong_pictures &pictures, const pong_image *previous,
+	   const pong_window *window, pong_detection *found, int capacity);
 
 // The region outlives them.
 std::unique_ptr<DetectMethod> make_difference(const pong_region &region, const pong_settings &settings);

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "camera.hpp"
-#include "detector.hpp"
 #include "doubt.hpp"
 #include "error.hpp"
-#include "outline.hpp"
-#include "picture_ring.hpp"
 #include "region.hpp"
+#include "side.hpp"
 #include "track.hpp"
 #include "window.hpp"
 
@@ -22,106 +20,16 @@ namespace pong
 namespace
 {
 
-const int balls_capacity = 16;        // places in one picture that look like a ball
-const double faint = 12;              // a ball of less contrast has no edges that can be located, grey levels
-const double faint_error = 0.1;       // of its centre then, radii
-const double usual_noise = 2;         // of a pixel, standard deviation, grey levels
 const double doubt_alone = 2;         // allowed where no other place looks like a ball
+const double doubt_fresh = 3.5;       // and where it has just come: it may lie before something that moves
+const double first_speed = 20;        // of a ball that was seen but once, at most, m/s
+const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
+const double very_fresh = 20;         // or, where its centres agree less well, by so much
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
+const double farthest_doubt = 2;      // it cannot be worse: the ball may be another one
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Lets a unique_ptr own what a _new of the public header made.
-template<auto free> struct Deleter {
-	template<class Object> void operator()(Object *object) const
-	{
-		free(object);
-	}
-};
-
-using Region = std::unique_ptr<pong_region, Deleter<pong_region_free>>;
-using Detector = std::unique_ptr<pong_detector, Deleter<pong_detector_free>>;
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
-
-// What one camera's picture shows.
-struct Balls {
-	int count = 0;
-	pong_centre centre[balls_capacity];
-	double contrast[balls_capacity];
-	double shown[balls_capacity]; // of the outline
-};
-
-// One camera's stages, from picture to centres.
-struct Side {
-	pong_camera camera;
-	Region region;
-	Detector detector;
-	PictureRing pictures;
-	Balls balls;
-};
-
-Side make_side(const pong_rig &rig, pong_side side, const pong_settings &settings)
-{
-	pong_error error;
-	const pong_camera &camera = rig.camera[side];
-	Region region(pong_region_new(&rig, side, &settings, &error));
-	if (!region)
-		throw Fault{PONG_ERROR_VALUE, error.text};
-	Detector detector(pong_detector_new(region.get(), &settings, &error));
-	if (!detector)
-		throw Fault{PONG_ERROR_MEMORY, error.text};
-	return {camera,
-		std::move(region),
-		std::move(detector),
-		PictureRing(camera.width, camera.height, 2 * settings.detect.gap + 1),
-		{}};
-}
-
-// Where the ball that is followed must be now in one camera's picture, and how far it moves there during the exposure.
-struct Expectation {
-	bool windowed, streaked; // whether what follows is known
-	pong_window window;
-	double streak[3];
-};
-
-// The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
-// detection's own centre stands.
-bool locate(const Side &side, const pong_pictures &pictures, const pong_detection &found, const double *streak,
-	    const pong_settings &settings, pong_centre *centre)
-{
-	if (settings.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
-		return pong_locate(&side.camera, &pictures, &found, streak, &settings, centre);
-	const double variance = std::pow(faint_error * found.size / 2, 2);
-	*centre = {};
-	centre->u = found.u;
-	centre->v = found.v;
-	centre->radius = found.size / 2;
-	centre->covariance[0][0] = centre->covariance[1][1] = variance;
-	return true;
-}
-
-// Look at the newest picture.
-void look(Side &side, const Expectation &expected, const pong_settings &settings)
-{
-	Balls &balls = side.balls;
-	balls.count = 0;
-	if (side.pictures.count() < 2)
-		return;
-	pong_detection found[balls_capacity];
-	const size_t gap = static_cast<size_t>(settings.detect.gap);
-	const pong_pictures pictures = {side.pictures.earlier(0),
-					{side.pictures.earlier(gap), side.pictures.earlier(2 * gap)}};
-	const pong_window *window = expected.windowed ? &expected.window : nullptr;
-	const double *streak = expected.streaked ? expected.streak : nullptr;
-	const int count = pong_detect(side.detector.get(), &pictures, window, found, balls_capacity);
-	for (int i = 0; i < count; i++) {
-		pong_centre &centre = balls.centre[balls.count];
-		if (!locate(side, pictures, found[i], streak, settings, &centre))
-			continue;
-		balls.shown[balls.count] =
-			measure_outline(pictures.current, centre.u, centre.v, centre.radius, usual_noise).shown;
-		balls.contrast[balls.count++] = found[i].contrast;
-	}
-}
 
 } // namespace
 
@@ -136,6 +44,8 @@ struct pong_eye {
 	Track track;
 	bool begun;
 	int64_t utime; // of the pair that is looked at
+
+	pong_point last; // of the flight
 
 	// What the track makes expect of that pair: set before the two looks, which only read it.
 	bool expecting;
@@ -171,22 +81,34 @@ double cost_of(const pong_eye &eye, const pong_state *expected, const Match &mat
 	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm() : 0;
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return expected ? distance : -contrast;
-	return match.doubt + distance / doubtful_distance;
+	return match.doubt + std::min(distance / doubtful_distance, farthest_doubt);
 }
 
-bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
+// Two places that look like a ball: one ball, if their centres agree.
+bool match_places(const pong_eye &eye, const Side::Ball &left, const Side::Ball &right, Match *match)
 {
-	const Balls &left = eye.side[PONG_LEFT].balls, &right = eye.side[PONG_RIGHT].balls;
+	*match = {&left.centre, &right.centre, {}, 0};
+	if (!pong_reconstruct(&eye.rig, match->left, match->right, &eye.settings, &match->point) ||
+	    !in_flight_space(eye.rig, eye.settings, match->point.position))
+		return false;
+	match->doubt = std::max(doubt_of_centres(eye.rig, left.centre, right.centre, match->point),
+				doubt_of_outline(std::min(left.shown, right.shown)));
+	return true;
+}
+
+bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
+{
+	Side &left = eye.side[PONG_LEFT], &right = eye.side[PONG_RIGHT];
 	double best_cost = std::numeric_limits<double>::infinity();
-	for (int l = 0; l < left.count; l++)
-		for (int r = 0; r < right.count; r++) {
-			Match match = {&left.centre[l], &right.centre[r], {}, 0};
-			if (!pong_reconstruct(&eye.rig, match.left, match.right, &eye.settings, &match.point) ||
-			    !in_flight_space(eye.rig, eye.settings, match.point.position))
+	for (int l = 0; l < left.count(); l++)
+		for (int r = 0; r < right.count(); r++) {
+			Match match;
+			const bool located = left.is_located(l) && right.is_located(r);
+			if (!(located || may_be_one(eye.rig, left.found(l), right.found(r))) || !left.ball(l) ||
+			    !right.ball(r) || !match_places(eye, *left.ball(l), *right.ball(r), &match))
 				continue;
-			match.doubt = std::max(doubt_of_centres(eye.rig, *match.left, *match.right, match.point),
-					       doubt_of_outline(std::min(left.shown[l], right.shown[r])));
-			const double cost = cost_of(eye, expected, match, left.contrast[l] + right.contrast[r]);
+			const double cost =
+				cost_of(eye, expected, match, left.found(l).contrast + right.found(r).contrast);
 			if (cost < best_cost) {
 				best_cost = cost;
 				*best = match;
@@ -195,16 +117,55 @@ bool match_sides(const pong_eye &eye, const pong_state *expected, Match *best)
 	return best_cost < std::numeric_limits<double>::infinity();
 }
 
+// Whether something moved, where was last looked, that is no ball.
+bool cluttered(const pong_eye &eye)
+{
+	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
+}
+
+// By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
+double freshness(const pong_eye &eye, const Match &match)
+{
+	const pong_centre &left = *match.left, &right = *match.right;
+	return std::min(eye.side[PONG_LEFT].freshness(left.u, left.v, left.radius),
+			eye.side[PONG_RIGHT].freshness(right.u, right.v, right.radius));
+}
+
+// Something else moves, too.
+Trust trust_amid_others(const pong_eye &eye, const Match &match)
+{
+	const double fresh = match.doubt < doubt_fresh ? freshness(eye, match) : 0;
+	if (fresh > fresh_enough && match.doubt < 1)
+		return Trust::certain;
+	if (fresh > very_fresh)
+		return Trust::usual;
+	// Hands are many, and one person's left is taken for another's right.
+	const bool alone = eye.side[PONG_LEFT].count() == 1 && eye.side[PONG_RIGHT].count() == 1;
+	return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
+}
+
 // Where nothing else moves, what looks like a ball is one.
 Trust trust_of(const pong_eye &eye, const Match &match)
 {
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return Trust::usual;
-	// Hands are many, and one person's left is taken for another's right.
-	const bool alone = eye.side[PONG_LEFT].balls.count == 1 && eye.side[PONG_RIGHT].balls.count == 1;
-	if (cluttered(*eye.side[PONG_LEFT].detector) || cluttered(*eye.side[PONG_RIGHT].detector))
-		return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
+	if (cluttered(eye))
+		return trust_amid_others(eye, match);
 	return match.doubt < 1 ? Trust::certain : Trust::usual;
+}
+
+// Of a flight that was seen but once, how far the ball can be from there is known. Amid people, where it has been is no
+// longer fresh: it is to be searched for near there.
+bool windows_around_first(pong_eye &eye)
+{
+	if (!cluttered(eye) || pong_track_count(eye.track.get()) != 1)
+		return false;
+	const double metres = first_speed * static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
+	bool windowed = true;
+	for (int side = 0; side < 2; side++)
+		windowed = windowed && window_around(eye.rig, static_cast<pong_side>(side), eye.last.position, metres,
+						     eye.settings, &eye.side_expected[side].window);
+	return windowed;
 }
 
 void expect(pong_eye &eye)
@@ -220,6 +181,7 @@ void expect(pong_eye &eye)
 		windowed = windowed &&
 			   window_around(eye.rig, static_cast<pong_side>(side), expected, eye.settings, &there.window);
 	}
+	windowed = windowed || (!eye.expecting && windows_around_first(eye));
 	for (Expectation &there : eye.side_expected)
 		there.windowed = windowed;
 }
@@ -230,7 +192,7 @@ bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
 	sight->windowed = eye.side_expected[PONG_LEFT].windowed;
 	for (;;) {
 		for (int side = 0; side < 2; side++)
-			sight->detections[side] = eye.side[side].balls.count;
+			sight->detections[side] = eye.side[side].count();
 		if (match_sides(eye, eye.expecting ? &eye.expected : nullptr, match))
 			return true;
 		if (!sight->windowed)
@@ -238,7 +200,7 @@ bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
 		sight->windowed = 0;
 		for (int side = 0; side < 2; side++) {
 			eye.side_expected[side].windowed = false;
-			look(eye.side[side], eye.side_expected[side], eye.settings);
+			eye.side[side].look(eye.side_expected[side]);
 		}
 	}
 }
@@ -284,6 +246,7 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
+	eye.last = match.point;
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match);
@@ -303,9 +266,9 @@ void check_size(const pong_eye &eye, pong_side side, const pong_image &image)
 int look(pong_eye &eye, pong_side side, const pong_image &image)
 {
 	check_size(eye, side, image);
-	eye.side[side].pictures.add(image);
-	look(eye.side[side], eye.side_expected[side], eye.settings);
-	return eye.side[side].balls.count;
+	eye.side[side].add(image);
+	eye.side[side].look(eye.side_expected[side]);
+	return eye.side[side].count();
 }
 
 pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
@@ -316,10 +279,11 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 		throw Fault{PONG_ERROR_MEMORY, error.text};
 	return new pong_eye{rig,
 			    settings,
-			    {make_side(rig, PONG_LEFT, settings), make_side(rig, PONG_RIGHT, settings)},
+			    {Side(rig, PONG_LEFT, settings), Side(rig, PONG_RIGHT, settings)},
 			    std::move(track),
 			    false,
 			    0,
+			    {},
 			    false,
 			    {},
 			    {}};

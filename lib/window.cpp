@@ -43,15 +43,20 @@ namespace pong
 bool window_around(const pong_rig &rig, pong_side side, const pong_state &expected, const pong_settings &settings,
 		   pong_window *window)
 {
-	if (!pong_window_around(&rig, side, expected.position, &settings, window))
-		return false;
 	double variance = 0;
 	for (int axis = 0; axis < 3 && expected.has_spin; axis++) // the paper's state has no covariance
 		variance = std::max(variance, expected.covariance[axis][axis]);
+	return window_around(rig, side, expected.position, sigmas * std::sqrt(variance), settings, window);
+}
+
+bool window_around(const pong_rig &rig, pong_side side, const double position[3], double metres,
+		   const pong_settings &settings, pong_window *window)
+{
+	if (!pong_window_around(&rig, side, position, &settings, window))
+		return false;
 	const double diameter = rig.ball.diameter;
-	const double px_per_metre = pong_apparent_size(&rig.camera[side], expected.position, diameter) / diameter;
-	const double more = std::min(sigmas * std::sqrt(variance) * px_per_metre, more_most);
-	const int px = static_cast<int>(std::ceil(more));
+	const double px_per_metre = pong_apparent_size(&rig.camera[side], position, diameter) / diameter;
+	const int px = static_cast<int>(std::ceil(std::min(metres * px_per_metre, more_most)));
 	window->u -= px;
 	window->v -= px;
 	window->width += 2 * px;

@@ -199,15 +199,12 @@ TEST_P(Eye, AllocatesNothingInTheSteadyLoop)
 			scene.push(false);
 		scene.restart();
 		scene.allocated = 0;
-		int predicted = 0, late = 0;
+		int predicted = 0;
 		for (int i = 0; i < 30; i++) {
 			scene.push(true);
 			predicted += scene.sight.has_prediction;
-			late += !predicted && !scene.sight.has_ball;
 		}
 		EXPECT_GT(predicted, 5);
-		// Before something that moves, a first sight is not published: so the arm was seen.
-		EXPECT_TRUE(!clutter || GetParam() == PONG_PAPER || late > 0);
 		EXPECT_EQ(scene.allocated, 0);
 	}
 }

@@ -169,6 +169,18 @@ TEST(SimulateRender, OneSeedOnePicture)
 	EXPECT_NE(a, c);
 }
 
+TEST(SimulatePeople, MoveOtherwiseInEveryWorld)
+{
+	const sim::People people(2, 5), same(2, 5), others(2, 6);
+	const auto elbow = [](const sim::People &crowd, double time) { return crowd.limbs_at(time)[9].to; };
+	ASSERT_EQ(people.limbs_at(0.3).size(), 22u);
+	EXPECT_EQ(elbow(people, 0.3), elbow(same, 0.3));
+	EXPECT_NE(elbow(people, 0.3), elbow(others, 0.3));
+	EXPECT_NE(elbow(people, 0.3), elbow(people, 0.4));
+	for (const sim::Limb &limb : people.limbs_at(0.3))
+		EXPECT_GE(limb.z, sim::people_z);
+}
+
 TEST(SimulateSensor, NoiseIsThatOfElectrons)
 {
 	const sim::Sensor sensor({}, 1);

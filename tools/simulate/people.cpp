@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+
+#include "texture.hpp"
 
 namespace sim
 {
@@ -11,20 +14,29 @@ namespace
 
 using Eigen::Vector2d;
 
-// How somebody moves, and what they wear.
-struct Person {
-	double x, z, height;           // m
-	double pace, sway;             // steps from side to side: turns/s, m
-	double swing, shirt, trousers; // arms: turns/s; clothes: grey levels
-	double pattern;
-};
-
-const Person persons[] = {
-	{-0.62, people_z, 1.60, 0.31, 0.28, 1.1, 118, 30, 0.1},
-	{0.70, people_z + 0.45, 1.74, 0.23, 0.35, 0.8, 44, 92, 0.6},
-};
-
 constexpr double skin = 140;
+
+// One on each side, as they differ from world to world.
+Person draw_person(int number, uint64_t seed)
+{
+	std::mt19937_64 random(hash(hash(seed) + static_cast<uint64_t>(number)));
+	const auto between = [&](double least, double most) {
+		return std::uniform_real_distribution<double>(least, most)(random);
+	};
+	Person person;
+	person.x = (number % 2 ? 1 : -1) * between(0.4, 0.8);
+	person.z = people_z + 0.45 * number + between(0, 0.4);
+	person.height = between(1.5, 1.85);
+	person.pace = between(0.15, 0.6);
+	person.sway = between(0.15, 0.45);
+	person.swing = between(0.5, 1.8);
+	person.step = between(0, 1);
+	person.arms = between(0, 1);
+	person.shirt = between(35, 170);
+	person.trousers = between(25, 110);
+	person.pattern = between(0, 1);
+	return person;
+}
 
 // Up and down between -1 and 1 in straight lines, once a unit.
 double wave(double x)
@@ -45,7 +57,8 @@ Vector2d along(double angle, double length)
 
 void add_person(const Person &person, double time, std::vector<Limb> *limbs)
 {
-	const double step = 2 * M_PI * person.pace * time, arms = 2 * M_PI * person.swing * time, h = person.height;
+	const double step = 2 * M_PI * (person.pace * time + person.step), h = person.height;
+	const double arms = 2 * M_PI * (person.swing * time + person.arms);
 	const Vector2d hip(person.x + person.sway * std::sin(step), floor_y + 0.52 * h);
 	const Vector2d neck = hip + Vector2d(0.03 * std::sin(step + 1), 0.30 * h);
 	const auto add = [&](const Vector2d &from, const Vector2d &to, double radius, double level, double contrast) {
@@ -72,11 +85,17 @@ void add_person(const Person &person, double time, std::vector<Limb> *limbs)
 
 } // namespace
 
-std::vector<Limb> limbs_at(double time, int people)
+People::People(int count, uint64_t seed)
+{
+	for (int number = 0; number < count; number++)
+		persons_.push_back(draw_person(number, seed));
+}
+
+std::vector<Limb> People::limbs_at(double time) const
 {
 	std::vector<Limb> limbs;
-	for (int i = people - 1; i >= 0; i--)
-		add_person(persons[i], time, &limbs);
+	for (auto person = persons_.rbegin(); person != persons_.rend(); ++person)
+		add_person(*person, time, &limbs);
 	return limbs;
 }
 

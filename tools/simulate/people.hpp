@@ -1,6 +1,7 @@
 // Two people behind the table, made of limbs: they step from side to side and swing their arms.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,10 +19,29 @@ struct Limb {
 	double pattern;           // tells clothes apart
 };
 
-constexpr double people_z = 3.9; // the nearest person stands here, m
+constexpr double people_z = 3.9; // nobody stands nearer, m
 
-// Far limbs first.
-std::vector<Limb> limbs_at(double time, int people);
+// How somebody moves, and what they wear.
+struct Person {
+	double x, z, height;             // m
+	double pace, sway;               // steps from side to side: turns/s, m
+	double swing;                    // of the arms: turns/s
+	double step, arms;               // at time 0, turns
+	double shirt, trousers, pattern; // grey levels; the pattern tells clothes apart
+};
+
+// They look and move otherwise in every world; the first stands nearest.
+class People
+{
+public:
+	People(int count, uint64_t seed);
+
+	// Far limbs first.
+	std::vector<Limb> limbs_at(double time) const;
+
+private:
+	std::vector<Person> persons_;
+};
 
 // What a point (x, y) of a limb's plane shows of it: how much of it is covered, 0 to 1, where `softness` is the width
 // over which the edge fades, m; and the light there.

@@ -52,7 +52,7 @@ struct Shadow {
 
 Renderer::Renderer(const Scene &scene, const Camera &camera, uint64_t seed, int side)
 	: scene_(scene), lens_(camera, scene.picture.blur), sensor_(scene.picture.sensor, seed),
-	  backdrop_(Room(scene.background, hash(seed)), lens_, sensor_),
+	  backdrop_(Room(scene.background, hash(seed)), lens_, sensor_), people_(scene.people, seed),
 	  key_(hash(2 * seed + static_cast<uint64_t>(side) + 12345)), light_(backdrop_.light()),
 	  deviation_(backdrop_.deviation())
 {
@@ -66,7 +66,7 @@ Renderer::Renderer(const Scene &scene, const Camera &camera, uint64_t seed, int 
 
 void Renderer::render(const Episode *episode, const Exposure &exposure, uint8_t *pixels)
 {
-	for (const Limb &limb : limbs_at(exposure.time, scene_.people))
+	for (const Limb &limb : people_.limbs_at(exposure.time))
 		draw_limb(limb);
 	if (episode && episode->has_ball())
 		draw_ball(*episode, exposure);
@@ -178,7 +178,7 @@ void Renderer::begin_samples(const Rect &pixels, double time, const Ball &ball)
 	for (size_t i = 0; shadow.visible() && i < samples_.level.size(); i++)
 		samples_.level[i] *=
 			static_cast<float>(shadow.factor(lens_.ray(samples_.x[i], samples_.y[i]), samples_.depth[i]));
-	for (const Limb &limb : limbs_at(time, scene_.people)) {
+	for (const Limb &limb : people_.limbs_at(time)) {
 		if (intersection(limb_rect(limb), pixels).empty())
 			continue;
 		const double softness = (limb.z - lens_.camera().centre.z()) / lens_.camera().focal / Lens::fine;

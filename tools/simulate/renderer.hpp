@@ -45,6 +45,7 @@ private:
 	const Lens lens_;
 	const Sensor sensor_;
 	const Backdrop backdrop_;
+	const People people_;
 	const uint64_t key_;
 	std::vector<float> slope_x_, slope_y_; // of the pixels' rays: x and y over z
 
