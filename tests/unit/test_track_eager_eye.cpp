@@ -75,7 +75,7 @@ protected:
 	bool arrive(EagerEye &eager, pong_side side, int frame) const
 	{
 		const int64_t time = utime(frame) + (side == PONG_RIGHT ? SKEW : 0);
-		const bool claimed = eager.claim(side, time, image(side, frame));
+		const bool claimed = eager.claim(side, time, image(side, frame), true);
 		if (claimed)
 			eager.look(side, image(side, frame));
 		return claimed;
@@ -119,7 +119,7 @@ TEST_F(EagerEyeTest, LearnsByHowMuchTheCamerasTimesDiffer)
 		const int frame = round % FRAMES;
 		const int64_t time = utime(round);
 		for (const pong_side side : {PONG_RIGHT, PONG_LEFT})
-			if (eager.claim(side, time + (side == PONG_RIGHT ? SKEW : 0), image(side, frame)))
+			if (eager.claim(side, time + (side == PONG_RIGHT ? SKEW : 0), image(side, frame), true))
 				eager.look(side, image(side, frame));
 		now = pair(frame);
 		now.utime = time + SKEW / 2;
@@ -168,6 +168,7 @@ TEST_F(EagerEyeTest, WaitsForThePairWhereTheLastOneWasNotComplete)
 	EXPECT_FALSE(arrive(eager, PONG_LEFT, 0)) << "nothing is known of the other camera yet";
 	StereoPair now = pair(0);
 	eager.look(now, sight);
+	EXPECT_FALSE(eager.claim(PONG_LEFT, utime(1), image(PONG_LEFT, 1), false)) << "an earlier picture waits";
 	EXPECT_TRUE(arrive(eager, PONG_LEFT, 1));
 	EXPECT_FALSE(arrive(eager, PONG_LEFT, 2)) << "its pair is not at its end";
 	EXPECT_FALSE(arrive(eager, PONG_RIGHT, 2)) << "of another pulse";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -151,6 +152,7 @@ public:
 		Dropped dropped;
 		dropped.unpaired = pairing_.unpaired();
 		for (const auto &seat : seats_) {
+			dropped.unpaired += seat->counts().undated;
 			dropped.incomplete += seat->counts().incomplete;
 			dropped.late += seat->counts().late;
 			dropped.repeated += seat->counts().repeated;
@@ -176,7 +178,8 @@ private:
 		if (!mailbox_.has_room(side))
 			return false;
 		const pong_image image = image_of(picture.buffer);
-		const bool claimed = onlooker_ && onlooker_->claim(side, picture.utime, image);
+		const bool is_first = held_++ == 0;
+		const bool claimed = onlooker_ && onlooker_->claim(side, picture.utime, image, is_first);
 		mailbox_.put(side, picture);
 		if (!claimed || onlooker_->look(side, image))
 			mailbox_.ring();
@@ -277,6 +280,7 @@ private:
 
 	void give_back(pong_side side, const Picture &picture)
 	{
+		held_--;
 		if (seats_[side])
 			seats_[side]->give_back(picture.buffer);
 		else
@@ -292,6 +296,7 @@ private:
 	}
 
 	Mailbox mailbox_;                            // outlives the cameras, which put pictures into it
+	std::atomic<int> held_{0};                   // pictures that were not given back yet
 	Onlooker *onlooker_;                         // and so does this one; null: nobody
 	std::array<std::unique_ptr<Seat>, 2> seats_; // by pong_side
 	Pairing pairing_;

@@ -23,13 +23,14 @@ EagerEye::EagerEye(pong_eye *eye, double rate) : eye_(eye), tolerance_(rate > 0 
 {
 }
 
-bool EagerEye::claim(pong_side side, int64_t utime, const pong_image &image)
+bool EagerEye::claim(pong_side side, int64_t utime, const pong_image &image, bool may_begin)
 {
 	const std::lock_guard<std::mutex> lock(mutex_);
 	const Part &other = parts_[1 - side];
 	if (taken_ || !in_step_ || parts_[side].pixels)
 		return false;
-	if (!begun_ ? !begin(side, utime) : static_cast<double>(std::abs(utime - other.utime)) >= tolerance_)
+	if (!begun_ ? !may_begin || !begin(side, utime)
+		    : static_cast<double>(std::abs(utime - other.utime)) >= tolerance_)
 		return false;
 	parts_[side] = {image.pixels, utime};
 	looking_++;

@@ -24,7 +24,7 @@ public:
 	// The eye is borrowed. rate: pairs a second; 0: not known, and nothing is looked at before it is a pair.
 	EagerEye(pong_eye *eye, double rate);
 
-	bool claim(pong_side side, int64_t utime, const pong_image &image) override;
+	bool claim(pong_side side, int64_t utime, const pong_image &image, bool may_begin) override;
 	bool look(pong_side side, const pong_image &image) override;
 	bool holds(pong_side side, const pong_image &image) override;
 

@@ -1,5 +1,6 @@
 #include "realtime.hpp"
 
+#include <malloc.h>
 #include <mutex>
 #include <pthread.h>
 #include <sched.h>
@@ -11,6 +12,13 @@
 
 namespace track
 {
+
+namespace
+{
+
+constexpr int LARGE_BLOCK = 128 * 1024; // bytes
+
+} // namespace
 
 void make_thread_realtime(int priority)
 {
@@ -27,6 +35,8 @@ void make_thread_realtime(int priority)
 // With a limit that all later memory counts against, memory would run out sooner: then rather not.
 void lock_memory()
 {
+	// Pictures' buffers, which come and go with a camera, get pages of their own: in a heap they leave holes.
+	mallopt(M_MMAP_THRESHOLD, LARGE_BLOCK);
 	rlimit limit;
 	const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
 	if (unlimited || geteuid() == 0)
