@@ -229,6 +229,7 @@ install: all
 	ln -sf libpongeye.so.0 $(INSTALL_DIR)/lib/libpongeye.so
 	install -m 644 $(BUILD)/lib/pongeye.jar $(INSTALL_DIR)/share/java
 	install -m 644 $(LCMTYPES) $(INSTALL_DIR)/share/pongeye/lcmtypes
+	sed 's|/usr/local|$(PREFIX)|' tools/track/pongeye-track.service >$(INSTALL_DIR)/share/pongeye/pongeye-track.service
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' lib/pongeye.pc.in >$(INSTALL_DIR)/lib/pkgconfig/pongeye.pc
 	$(if $(DESTDIR),,-ldconfig 2>/dev/null)
 
