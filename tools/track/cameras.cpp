@@ -97,6 +97,7 @@ public:
 		  pairing_(settings.rate, [this](pong_side side, const Picture &picture) { release(side, picture); }),
 		  hear_(std::move(hear))
 	{
+		lock_memory();
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			seats_[side] = std::make_unique<Seat>(
 				side, rig.camera[side], settings,
@@ -105,7 +106,6 @@ public:
 		overdue_ns_ = std::llround(overdue * 1e9);
 		heard_ns_ = monotonic_ns();
 		make_thread_realtime(TRACKING_PRIORITY);
-		lock_memory();
 	}
 
 	// First the cameras end, so that nothing comes any more; then what is still here is freed.

@@ -17,6 +17,7 @@ namespace
 {
 
 constexpr int LARGE_BLOCK = 128 * 1024; // bytes
+constexpr size_t STACK = 1024 * 1024;   // bytes
 
 } // namespace
 
@@ -37,6 +38,12 @@ void lock_memory()
 {
 	// Pictures' buffers, which come and go with a camera, get pages of their own: in a heap they leave holes.
 	mallopt(M_MMAP_THRESHOLD, LARGE_BLOCK);
+	// A thread's stack is locked whole.
+	pthread_attr_t attributes;
+	pthread_attr_init(&attributes);
+	pthread_attr_setstacksize(&attributes, STACK);
+	pthread_setattr_default_np(&attributes);
+	pthread_attr_destroy(&attributes);
 	rlimit limit;
 	const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
 	if (unlimited || geteuid() == 0)
