@@ -62,6 +62,7 @@ void Estimate::clear()
 	prior_mean_ = usual_parameters(rig_);
 	prior_information_ =
 		usual_sigmas(rig_).cwiseMax(std::sqrt(least_variance)).array().square().inverse().matrix().asDiagonal();
+	covariance_.setZero();
 }
 
 void Estimate::begin(const pong_point &point)
@@ -87,11 +88,13 @@ void Estimate::add(const pong_point &point)
 	find_state();
 }
 
+// A point has the noise of its own time; the first ones have what was found out from a few more.
 void Estimate::find_noise(const pong_point &point)
 {
 	noise_.add(point.utime, vector_of(point.position));
 	const Matrix3 information = noise_.sigma().array().square().inverse().matrix().asDiagonal();
-	for (size_t i = 0; i < count_; i++)
+	const size_t first = count_ <= 2 * Noise::reach ? 0 : count_ - Noise::reach;
+	for (size_t i = first; i < count_; i++)
 		if (samples_[i].unknown)
 			samples_[i].information = information;
 }
@@ -102,11 +105,13 @@ Estimate::Quadratic Estimate::prior_at(const Parameters &parameters) const
 	return {gradient.dot(prior_mean_ - parameters), gradient, prior_information_};
 }
 
-// The cost of the first samples about some parameters. A point far off the flight counts less, the farther the less.
-Estimate::Quadratic Estimate::linearise(const Parameters &parameters, size_t samples) const
+// The cost of the first samples about some parameters, with their covariance that of the mean of all flights they may
+// stand for. A point far off the flight counts less, the farther the less.
+Estimate::Quadratic Estimate::linearise(const Parameters &parameters, size_t samples,
+					const ParameterMatrix *covariance) const
 {
 	Quadratic quadratic = prior_at(parameters);
-	Trajectory trajectory(physics_, rig_.table, parameters);
+	Trajectory trajectory(physics_, rig_.table, parameters, covariance);
 	const double latest = samples_[samples - 1].time;
 	for (size_t i = 0; i < samples; i++) {
 		const Sample &sample = samples_[i];
@@ -126,14 +131,17 @@ Estimate::Quadratic Estimate::linearise(const Parameters &parameters, size_t sam
 }
 
 // The cost is a narrow curved valley: full steps follow it where steps that insist on a lower cost every time creep.
+// The first step is that of the mean flight: a ball that is believed to roll on the table feels no friction, and one
+// that in truth slides, for the table is slippery, would never be found.
 void Estimate::improve()
 {
 	Parameters best = parameters_;
 	double least = std::numeric_limits<double>::infinity();
 	const int steps = count_ <= begin_points ? begin_steps : steady_steps;
 	for (int i = 0; i < steps; i++) {
-		quadratic_ = linearise(parameters_, count_);
-		if (quadratic_.cost < least) {
+		const bool first = i == 0;
+		quadratic_ = linearise(parameters_, count_, first ? &covariance_ : nullptr);
+		if (!first && quadratic_.cost < least) {
 			least = quadratic_.cost;
 			best = parameters_;
 		}
@@ -143,10 +151,10 @@ void Estimate::improve()
 			break;
 		parameters_ += step;
 		quadratic_.gradient.setZero();
-		if (length < settled)
+		if (!first && length < settled)
 			return;
 	}
-	if (!(linearise(parameters_, count_).cost < least))
+	if (!(linearise(parameters_, count_, nullptr).cost < least))
 		parameters_ = best;
 }
 
@@ -183,6 +191,7 @@ void Estimate::find_state()
 	const double time = samples_[count_ - 1].time;
 	int bounces;
 	Belief now = belief_at(time, quadratic_, &bounces);
+	covariance_ = quadratic_.information.llt().solve(ParameterMatrix::Identity());
 	if (bounces > 0)
 		renew_kick(now.mean, now.covariance);
 	state_.utime = anchor_ + std::llround(time * 1e6);
@@ -209,7 +218,7 @@ void Estimate::fold()
 	const size_t half = window_ / 2;
 	const double time = samples_[half].time;
 	int bounces;
-	Quadratic older = linearise(parameters_, half);
+	Quadratic older = linearise(parameters_, half, nullptr);
 	Belief then = belief_at(time, older, &bounces);
 	older.gradient.setZero();
 	parameters_ = belief_at(time, older, &bounces).mean;
@@ -217,6 +226,7 @@ void Estimate::fold()
 		renew_kick(then.mean, then.covariance);
 		parameters_.tail<2>().setZero();
 	}
+	covariance_ = then.covariance;
 	prior_mean_ = then.mean;
 	prior_information_ = then.covariance.llt().solve(ParameterMatrix::Identity());
 	move_anchor(time, half);

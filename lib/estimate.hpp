@@ -48,7 +48,7 @@ private:
 	void begin(const pong_point &point);
 	void find_noise(const pong_point &point);
 	void improve();
-	Quadratic linearise(const Parameters &parameters, size_t samples) const;
+	Quadratic linearise(const Parameters &parameters, size_t samples, const ParameterMatrix *covariance) const;
 	Quadratic prior_at(const Parameters &parameters) const;
 	void find_state();
 	void fold();
@@ -66,7 +66,8 @@ private:
 	Parameters prior_mean_;
 	ParameterMatrix prior_information_;
 	Parameters parameters_;
-	Quadratic quadratic_; // about parameters_
+	Quadratic quadratic_;        // about parameters_
+	ParameterMatrix covariance_; // of parameters_, before the new point
 	pong_state state_;
 };
 

@@ -11,6 +11,7 @@ namespace
 
 const double usual_sigma = 0.001; // m; what is believed before,
 const double belief = 2;          // as if seen so often
+const double memory = 6;          // differences: a ball far away is seen less well than it will be soon
 const double surprise = 9;        // a square so many times the usual one is a bounce or an outlier, and counts no more
 
 } // namespace
@@ -47,6 +48,10 @@ void Noise::add(int64_t utime, const Vector3 &position)
 	const Vector3 usual = sum_ / weight_;
 	sum_ += (difference.cwiseAbs2() / squares).cwiseMin(surprise * usual);
 	weight_++;
+	if (weight_ > memory) {
+		sum_ *= memory / weight_;
+		weight_ = memory;
+	}
 }
 
 Vector3 Noise::sigma() const

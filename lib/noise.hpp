@@ -14,13 +14,15 @@ namespace pong
 class Noise
 {
 public:
+	static const size_t reach = 4; // neighbours in a combination
+
 	// What neighbours err alike with does not show in their scatter: `shared`, its standard deviation, m.
 	explicit Noise(double shared);
 
 	void clear();
 	void add(int64_t utime, const Vector3 &position);
 
-	// Standard deviations of x, y, z, m.
+	// Standard deviations of x, y, z, m, of the latest points.
 	Vector3 sigma() const;
 
 private:
@@ -29,7 +31,7 @@ private:
 		Vector3 position;
 	};
 	double shared_;
-	std::array<Place, 4> latest_;
+	std::array<Place, reach> latest_;
 	size_t count_ = 0;
 	Vector3 sum_; // of squares
 	double weight_;

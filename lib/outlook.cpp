@@ -27,12 +27,19 @@ Parameters parameters_of(const pong_rig &rig, const pong_state &state)
 	return parameters;
 }
 
+// Symmetric: by rows or by columns is the same.
+ParameterMatrix covariance_of(const pong_state &state)
+{
+	return Eigen::Map<const ParameterMatrix>(&state.covariance[0][0]);
+}
+
 class Outlook
 {
 public:
 	Outlook(const pong_rig &rig, const pong_state &state, const pong_settings &settings)
 		: rig_(rig), state_(state), settings_(settings), physics_(rig), parameters_(parameters_of(rig, state)),
-		  trajectory_(physics_, rig.table, parameters_)
+		  covariance_(covariance_of(state)),
+		  trajectory_(physics_, rig.table, parameters_, state.has_spin ? &covariance_ : nullptr)
 	{
 	}
 
@@ -78,10 +85,12 @@ private:
 		return state;
 	}
 
-	// Symmetric: by rows or by columns is the same.
-	Eigen::Map<const ParameterMatrix> covariance() const
+	// What the next bounce leaves to chance is as if its kick were less known.
+	ParameterMatrix covariance() const
 	{
-		return Eigen::Map<const ParameterMatrix>(&state_.covariance[0][0]);
+		ParameterMatrix covariance = covariance_;
+		covariance.bottomRightCorner<2, 2>() += trajectory_.scatter();
+		return covariance;
 	}
 
 	// Whether the present stretch passes the plane, from whichever side.
@@ -199,6 +208,7 @@ private:
 	const pong_settings &settings_;
 	const Physics physics_;
 	const Parameters parameters_;
+	const ParameterMatrix covariance_; // of the state
 	Trajectory trajectory_;
 };
 

@@ -14,6 +14,7 @@ const double step_error = 1e-6;          // m
 const double least_step = 1e-4;          // s; no ball needs shorter ones, and nonsense must end too
 const double least_speed = 1e-6;         // m/s; below this a direction has no meaning
 const double least_spin = 1e-6;          // rad/s; the same
+const double least_doubt = 1e-6;         // of the part of the slip; below this, it is sure which one is less
 const double rolling_part = 0.4;  // of the slip that ends when a hollow sphere begins to roll: 1 / (1 + m r^2 / I)
 const double spin_per_push = 1.5; // m r^2 / I, with I = 2/3 m r^2
 
@@ -128,73 +129,105 @@ void Physics::step(const Parameters &parameters, double duration, Motion &motion
 	motion.velocity_rates = velocity_rates;
 }
 
-// The change of velocity along the table, and how it moves with the velocity and spin before and the coefficients.
-struct Physics::Impulse {
-	Vector3 value;
-	Rates rates;
+// A ball on the table, before friction pushes it: how its lowest point slips along the table, s = v_t + w x (0, -r, 0),
+// and which part of that slip friction can end by sliding, mu (1 + e) |v_y| / |s|, and which by rolling, 2/5 (1 +
+// grip), of an elastic ball that is turned over (Nakashima et al. 2010; Cross 2002). With their rates.
+struct Physics::Contact {
+	Vector3 slip;
+	Rates slip_rates;
+	double sliding, rolling;
+	RowRates sliding_rates, rolling_rates;
 };
 
-// The ball's lowest point slips along the table with s = v_t + w x (0, -r, 0). Friction pushes against it with
-// mu (1 + e) |v_y|, but no longer than until the slip is gone, where the ball rolls, or is turned over by the grip of
-// an elastic ball: dv = -min(mu (1 + e) |v_y| / |s|, 2/5 (1 + grip)) s (Nakashima et al. 2010; Cross 2002).
-Physics::Impulse Physics::impulse(const Parameters &parameters, const Motion &motion) const
+Physics::Contact Physics::contact(const Parameters &parameters, const Motion &motion) const
 {
 	const double e = parameters[PONG_STATE_RESTITUTION], mu = parameters[PONG_STATE_FRICTION];
-	const double grip = parameters[PONG_STATE_GRIP];
 	const double fall = -motion.velocity.y();
-	Vector3 slip(motion.velocity.x() + radius_ * motion.spin.z(), 0,
-		     motion.velocity.z() - radius_ * motion.spin.x());
-	Rates slip_rates = motion.velocity_rates;
-	slip_rates.row(0) += radius_ * motion.spin_rates.row(2);
-	slip_rates.row(1).setZero();
-	slip_rates.row(2) -= radius_ * motion.spin_rates.row(0);
+	Contact contact = {
+		{motion.velocity.x() + radius_ * motion.spin.z(), 0, motion.velocity.z() - radius_ * motion.spin.x()},
+		motion.velocity_rates,
+		0,
+		0,
+		RowRates::Zero(),
+		RowRates::Zero()};
+	contact.slip_rates.row(0) += radius_ * motion.spin_rates.row(2);
+	contact.slip_rates.row(1).setZero();
+	contact.slip_rates.row(2) -= radius_ * motion.spin_rates.row(0);
 
-	const double speed = std::max(slip.norm(), least_speed);
-	const double sliding = mu * (1 + e) * fall / speed, rolling = rolling_part * (1 + grip);
-	const double part = std::min(sliding, rolling);
-	Impulse push = {-part * slip, -part * slip_rates};
-	if (rolling <= sliding) {
-		push.rates.col(PONG_STATE_GRIP) -= rolling_part * slip;
-	} else {
-		const Vector3 along = slip / speed;
-		push.rates += part * along * (along.transpose() * slip_rates);
-		push.rates += mu * (1 + e) * along * motion.velocity_rates.row(1);
-		push.rates.col(PONG_STATE_RESTITUTION) -= mu * fall * along;
-		push.rates.col(PONG_STATE_FRICTION) -= (1 + e) * fall * along;
+	const double speed = std::max(contact.slip.norm(), least_speed);
+	contact.sliding = mu * (1 + e) * fall / speed;
+	contact.sliding_rates = -mu * (1 + e) / speed * motion.velocity_rates.row(1) -
+				contact.sliding / (speed * speed) * contact.slip.transpose() * contact.slip_rates;
+	contact.sliding_rates[PONG_STATE_RESTITUTION] += mu * fall / speed;
+	contact.sliding_rates[PONG_STATE_FRICTION] += (1 + e) * fall / speed;
+	contact.rolling = rolling_part * (1 + parameters[PONG_STATE_GRIP]);
+	contact.rolling_rates[PONG_STATE_GRIP] = rolling_part;
+	return contact;
+}
+
+// Which part of the slip friction ends, the lesser of both. Where it is not sure which one that is, the mean over the
+// normal distribution of their difference (Clark 1961, doi:10.1287/opre.9.2.145): its rates are those of both as often
+// as each is the lesser, and what the rates do not explain of its variance is left.
+struct Physics::Push {
+	double part;
+	RowRates rates;
+	double left;
+};
+
+Physics::Push Physics::push(const Contact &contact, const ParameterMatrix *covariance) const
+{
+	const double gap = contact.sliding - contact.rolling;
+	const RowRates gap_rates = contact.sliding_rates - contact.rolling_rates;
+	const double variance = covariance ? gap_rates.dot(gap_rates * *covariance) : 0.0;
+	if (!(variance > least_doubt * least_doubt)) {
+		return gap < 0 ? Push{contact.sliding, contact.sliding_rates, 0}
+			       : Push{contact.rolling, contact.rolling_rates, 0};
 	}
-	push.value.x() += parameters[PONG_STATE_KICK_X];
-	push.value.z() += parameters[PONG_STATE_KICK_Z];
-	push.rates(0, PONG_STATE_KICK_X) += 1;
-	push.rates(2, PONG_STATE_KICK_Z) += 1;
-	return push;
+	const double sigma = std::sqrt(variance), score = gap / sigma;
+	const double slides = 0.5 * std::erfc(score / std::sqrt(2)); // how probably
+	const double density = std::exp(-0.5 * score * score) / std::sqrt(2 * M_PI);
+	const double mean = gap * slides - sigma * density; // of min(gap, 0)
+	const double square = (gap * gap + variance) * slides - gap * sigma * density;
+	return {contact.rolling + mean, contact.rolling_rates + slides * gap_rates,
+		std::max(0.0, square - mean * mean - slides * slides * variance)};
 }
 
 // dw = (r x m dv) / I
-void Physics::push_along_table(const Parameters &parameters, Motion &motion) const
+void Physics::push_along_table(const Parameters &parameters, const ParameterMatrix *covariance, Motion &motion,
+			       Scatter &scatter) const
 {
-	const Impulse push = impulse(parameters, motion);
-	const double lever = spin_per_push / radius_;
-	const double e = parameters[PONG_STATE_RESTITUTION];
+	const Contact contact = this->contact(parameters, motion);
+	const Push push = this->push(contact, covariance);
+	const Vector3 kick(parameters[PONG_STATE_KICK_X], 0, parameters[PONG_STATE_KICK_Z]);
+	const Vector3 change = kick - push.part * contact.slip;
+	Rates change_rates = -push.part * contact.slip_rates - contact.slip * push.rates;
+	change_rates(0, PONG_STATE_KICK_X) += 1;
+	change_rates(2, PONG_STATE_KICK_Z) += 1;
+	const Eigen::Vector2d slip(contact.slip.x(), contact.slip.z());
+	scatter += push.left * slip * slip.transpose();
+
+	const double lever = spin_per_push / radius_, e = parameters[PONG_STATE_RESTITUTION];
 	motion.velocity_rates.row(1) *= -e;
 	motion.velocity_rates(1, PONG_STATE_RESTITUTION) -= motion.velocity.y();
 	motion.velocity.y() *= -e;
-	motion.velocity += push.value;
-	motion.velocity_rates += push.rates;
-	motion.spin += lever * Vector3(-push.value.z(), 0, push.value.x());
-	motion.spin_rates.row(0) -= lever * push.rates.row(2);
-	motion.spin_rates.row(2) += lever * push.rates.row(0);
+	motion.velocity += change;
+	motion.velocity_rates += change_rates;
+	motion.spin += lever * Vector3(-change.z(), 0, change.x());
+	motion.spin_rates.row(0) -= lever * change_rates.row(2);
+	motion.spin_rates.row(2) += lever * change_rates.row(0);
 }
 
-void Physics::bounce(const Parameters &parameters, Motion &motion) const
+void Physics::bounce(const Parameters &parameters, const ParameterMatrix *covariance, Motion &motion,
+		     Scatter &scatter) const
 {
 	// y(t) = r + h defines the moment of contact t, so dt = (dh - dy) / v_y. To that moment, through the contact,
 	// and back.
-	Eigen::Matrix<double, 1, parameter_count> moment = -motion.position_rates.row(1);
+	RowRates moment = -motion.position_rates.row(1);
 	moment[PONG_STATE_HEIGHT] += 1;
 	moment /= motion.velocity.y();
 	motion.position_rates += motion.velocity * moment;
 	motion.velocity_rates += acceleration(parameters, motion) * moment;
-	push_along_table(parameters, motion);
+	push_along_table(parameters, covariance, motion, scatter);
 	motion.position_rates -= motion.velocity * moment;
 	motion.velocity_rates -= acceleration(parameters, motion) * moment;
 }

@@ -21,12 +21,18 @@ using ParameterMatrix = Eigen::Matrix<double, parameter_count, parameter_count>;
 // How a vector moves with the parameters. Row by row: the compiler makes long loops of it.
 using Rates = Eigen::Matrix<double, 3, parameter_count, Eigen::RowMajor>;
 
+// How a number does.
+using RowRates = Eigen::Matrix<double, 1, parameter_count>;
+
 // A ball on its way and how it moves with the parameters; time runs in seconds from the anchor.
 struct Motion {
 	double time;
 	Vector3 position, velocity, spin;
 	Rates position_rates, velocity_rates, spin_rates;
 };
+
+// What a bounce leaves to chance beside what its rates say: the covariance of the push along the table, x and z.
+using Scatter = Eigen::Matrix2d;
 
 // A ball at the anchor.
 Motion motion_at_anchor(const Parameters &parameters);
@@ -48,8 +54,10 @@ public:
 	void step(const Parameters &parameters, double duration, Motion &motion) const;
 
 	// A ball that touches the table, from the moment before to the moment after. The moment itself depends on the
-	// parameters too: a ball that comes later bounces later.
-	void bounce(const Parameters &parameters, Motion &motion) const;
+	// parameters too: a ball that comes later bounces later. With the parameters' covariance, it is the mean of
+	// the bounces that are possible, of which some slide and some roll, and their scatter is added to `scatter`.
+	void bounce(const Parameters &parameters, const ParameterMatrix *covariance, Motion &motion,
+		    Scatter &scatter) const;
 
 	double radius() const
 	{
@@ -63,9 +71,12 @@ public:
 	}
 
 private:
-	struct Impulse;
-	Impulse impulse(const Parameters &parameters, const Motion &motion) const;
-	void push_along_table(const Parameters &parameters, Motion &motion) const;
+	struct Contact;
+	struct Push;
+	Contact contact(const Parameters &parameters, const Motion &motion) const;
+	Push push(const Contact &contact, const ParameterMatrix *covariance) const;
+	void push_along_table(const Parameters &parameters, const ParameterMatrix *covariance, Motion &motion,
+			      Scatter &scatter) const;
 
 	double radius_, drag_factor_, drag_by_spin_, magnus_factor_, saturation_, gravity_;
 };

@@ -18,8 +18,10 @@ struct Trajectory::Weights {
 	double begin, begin_velocity, end, end_velocity;
 };
 
-Trajectory::Trajectory(const Physics &physics, const pong_table &table, const Parameters &parameters)
-	: physics_(physics), table_(table), parameters_(parameters), begin_(motion_at_anchor(parameters)), end_(begin_)
+Trajectory::Trajectory(const Physics &physics, const pong_table &table, const Parameters &parameters,
+		       const ParameterMatrix *covariance)
+	: physics_(physics), table_(table), parameters_(parameters), covariance_(covariance),
+	  begin_(motion_at_anchor(parameters)), end_(begin_)
 {
 }
 
@@ -27,7 +29,7 @@ void Trajectory::advance(double latest)
 {
 	begin_ = end_;
 	if (ends_on_table_) {
-		physics_.bounce(parameters_, begin_);
+		physics_.bounce(parameters_, covariance_, begin_, scatter_);
 		begin_.position.y() = physics_.contact_height(parameters_);
 		bounces_++;
 	}

@@ -10,7 +10,9 @@ class Trajectory
 {
 public:
 	// From the anchor on; no stretch yet.
-	Trajectory(const Physics &physics, const pong_table &table, const Parameters &parameters);
+	// With the parameters' covariance, the mean of the flights that are possible: see Physics::bounce.
+	Trajectory(const Physics &physics, const pong_table &table, const Parameters &parameters,
+		   const ParameterMatrix *covariance = nullptr);
 
 	// Go on to the next stretch: as long as accuracy allows, no longer than to `latest`, and no farther than to
 	// where the ball meets the table.
@@ -35,6 +37,12 @@ public:
 		return bounces_;
 	}
 
+	// Of the bounces so far, see Physics::bounce.
+	const Scatter &scatter() const
+	{
+		return scatter_;
+	}
+
 	// In between the ends, by cubic interpolation.
 	Vector3 position(double time) const;
 	Rates position_rates(double time) const;
@@ -54,6 +62,8 @@ private:
 	const Physics &physics_;
 	const pong_table &table_;
 	const Parameters &parameters_;
+	const ParameterMatrix *covariance_;
+	Scatter scatter_ = Scatter::Zero();
 	Motion begin_, end_;
 	bool ends_on_table_ = false;
 	int bounces_ = 0;

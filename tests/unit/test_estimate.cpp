@@ -78,6 +78,22 @@ TEST(Estimate, FindsTheSpinAfterTheBounce)
 }
 
 // Calibration that is wrong by some millimetres puts the table's surface there: the bounce tells.
+// Believed to roll, where friction is of no account, the ball slides in truth.
+TEST(Estimate, FindsASlipperyTable)
+{
+	pong_rig rig = rig_of_simulator();
+	rig.ball.friction_sigma = 0.05;
+	sim::Coefficients slippery;
+	slippery.friction = 0.11;
+	sim::Ball ball = usual_serve();
+	ball.spin = {-150, 20, 60};
+	const sim::Flight flight = fly(ball, slippery);
+	const pong_state state = estimate(rig, points_of(flight, 0, 0.65, 110, 0.001));
+	EXPECT_NEAR(state.coefficients[PONG_STATE_FRICTION - PONG_STATE_DRAG], 0.11, 0.03);
+	EXPECT_LT(position_error(state, flight), 0.002);
+	EXPECT_LT(normalised_error(state, flight), 4);
+}
+
 TEST(Estimate, FindsTheTableWhereTheCamerasSeeIt)
 {
 	const sim::Flight flight = fly(usual_serve());

@@ -1,5 +1,7 @@
 // The ball's physics: its rates against differences, its steps against the simulator's tiny ones.
+#include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "flights.hpp"
 #include "lib/trajectory.hpp"
@@ -59,6 +61,42 @@ TEST(Physics, RatesThroughARollingBounce)
 TEST(Physics, RatesThroughASlidingBounce)
 {
 	expect_rates({50, 40, -80});
+}
+
+// Where friction and spin leave open whether the ball will slide or roll, against many balls of which each does one.
+TEST(Physics, ABounceThatMaySlideOrRollIsTheirMean)
+{
+	const pong_rig rig = rig_of_simulator();
+	const Parameters parameters = serve_parameters(rig, {-130, 20, 0});
+	Parameters sigma = Parameters::Zero();
+	sigma.segment<3>(PONG_STATE_SPIN).setConstant(8);
+	sigma[PONG_STATE_FRICTION] = 0.08;
+	const ParameterMatrix covariance = sigma.cwiseAbs2().asDiagonal();
+	const Physics physics(rig);
+	Trajectory trajectory(physics, rig.table, parameters, &covariance);
+	while (trajectory.end().time < 0.6)
+		trajectory.advance(0.6);
+	ParameterMatrix believed = covariance;
+	believed.bottomRightCorner<2, 2>() += trajectory.scatter();
+	const Rates &rates = trajectory.end().velocity_rates;
+	const double expected = (rates * believed * rates.transpose()).topLeftCorner<3, 3>()(2, 2);
+
+	std::mt19937 random(1);
+	std::normal_distribution<double> normal;
+	const int balls = 2000;
+	double sum = 0, squares = 0;
+	for (int i = 0; i < balls; i++) {
+		const Parameters drawn =
+			parameters + sigma.cwiseProduct(Parameters::NullaryExpr([&] { return normal(random); }));
+		const double along = motion_after(rig, drawn, 0.6).velocity.z();
+		sum += along / balls;
+		squares += along * along / balls;
+	}
+	const double spread = std::sqrt(squares - sum * sum);
+	EXPECT_GT(trajectory.scatter()(1, 1), 0); // it was open
+	EXPECT_NEAR(trajectory.end().velocity.z(), sum, 0.1 * spread);
+	EXPECT_NEAR(std::sqrt(expected), spread, 0.1 * spread);
+	EXPECT_GT(std::abs(motion_after(rig, parameters, 0.6).velocity.z() - sum), 0.2 * spread); // either alone is off
 }
 
 TEST(Physics, LongStepsAreAsGoodAsTheSimulatorsTinyOnes)
