@@ -51,7 +51,8 @@ void EagerEye::look_at(pong_side side, const pong_image &image)
 	if (pong_eye_look(eye_, side, &image, &error) >= 0)
 		return;
 	const std::lock_guard<std::mutex> lock(mutex_);
-	error_ = error;
+	if (!*error_.text) // the first one says enough
+		error_ = error;
 }
 
 bool EagerEye::look(pong_side side, const pong_image &image)
