@@ -195,6 +195,10 @@ $(BUILD)/tests/gige_aravis: $(BUILD)/obj/tests/sim/test_gige_aravis.o \
 	$(begin)
 	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -lgtest -lgtest_main -pthread -o $@
 
+$(BUILD)/tests/latency_probe: $(BUILD)/obj/tests/sim/latency_probe.o $(BUILD)/obj/tools/track/realtime.o $(COMMON_OBJECTS)
+	$(begin)
+	$(Q)$(CXX) $(LDFLAGS) $^ $(call libs,aravis-0.8) -pthread -o $@
+
 SIM_PROGRAMS := $(BUILD)/tests/lcm_listener $(BUILD)/tests/gige_aravis
 
 .PHONY: test check
@@ -225,6 +229,7 @@ install: all
 	ln -sf libpongeye.so.0 $(INSTALL_DIR)/lib/libpongeye.so
 	install -m 644 $(BUILD)/lib/pongeye.jar $(INSTALL_DIR)/share/java
 	install -m 644 $(LCMTYPES) $(INSTALL_DIR)/share/pongeye/lcmtypes
+	sed 's|/usr/local|$(PREFIX)|' tools/track/pongeye-track.service >$(INSTALL_DIR)/share/pongeye/pongeye-track.service
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' lib/pongeye.pc.in >$(INSTALL_DIR)/lib/pkgconfig/pongeye.pc
 	$(if $(DESTDIR),,-ldconfig 2>/dev/null)
 
@@ -232,13 +237,15 @@ install: all
 
 # --- The rest
 
-.PHONY: help sanitize tsan soak format lint clean
+.PHONY: help sanitize tsan soak latency loss format lint clean
 help:
 	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
 	@echo "  make check      the tests, without installing anything"
 	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "  make tsan       the unit tests under ThreadSanitizer"
 	@echo "  make soak       the tracker under random faults, for MINUTES=10"
+	@echo "  make latency    how long the tracker takes from the last packet to the message"
+	@echo "  make loss       what 0.1 % of the packets, when they are lost, cost in pairs"
 	@echo "  make fuzz       any bytes into every parser, under sanitizers; FUZZ_SECONDS=300 each"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"
@@ -256,6 +263,12 @@ tsan:
 MINUTES ?= 10
 soak: all
 	BUILD=$(BUILD) tests/soak.sh $(MINUTES)
+
+latency: all $(BUILD)/tests/latency_probe
+	BUILD=$(BUILD) tests/latency.sh
+
+loss: all
+	BUILD=$(BUILD) tests/loss.sh
 
 SOURCES := $(shell git ls-files '*.cpp' '*.hpp' '*.c' '*.h' 2>/dev/null)
 

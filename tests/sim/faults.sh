@@ -36,6 +36,8 @@ fault "right:miss@flight2+1" 400 'right camera 127.0.0.2: it answers, but sends 
 fault "left:miss=0.1,right:miss=0.1" 330 '[1-9][0-9]* without a partner' "pulses missed at random"
 fault "both:lose=0.001,both:reorder=0.01" 330 '' "packets lost and overtaken are asked for again"
 fault "left:drift=100,right:drift=-100,both:block=65400" 330 '' "clocks that drift, frame ids that wrap"
-fault "right:offset=0.5@flight2" 440 '' "a clock that is set"
+fault "right:offset=0.5@flight2" 440 'right camera 127.0.0.2: its clock was set' "a clock that is set"
+fault "right:offset=-0.0090909@flight2" 440 'right camera 127.0.0.2: its clock was set' \
+	"a clock that is set back by one period"
 fault "left:held" 550 'left camera 127.0.0.1: another program controls it' "a dead client's control runs out"
 finish

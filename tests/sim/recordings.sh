@@ -71,6 +71,12 @@ check_refusal "a file that is no recording" 1 'this is no recording' "$track" --
 check_refusal "a folder" 1 'Is a directory' "$track" --replay pictures
 check_refusal "no file" 1 'nowhere.lcm: No such file' "$track" --replay nowhere.lcm
 check_refusal "no folder for a recording" 1 'No such file' from_pictures --record nowhere/session.lcm
+printf 'left from before' >before.lcm
+sed '/^camera/d' pictures/rig.toml >nameless.toml
+check_refusal "cameras that are not named" 1 'names no left camera' "$track" --rig nameless.toml --record new.lcm
+check "leave no empty recording" test ! -e new.lcm
+"$track" --rig nameless.toml --record before.lcm 2>/dev/null
+check "nor do they cost an old one" grep -qx 'left from before' before.lcm
 check_refusal "onto itself" 2 'would overwrite' "$track" --replay session.lcm --record ./session.lcm
 check_refusal "pictures and a recording" 2 'one of them' from_pictures --replay session.lcm
 check_refusal "--record-last without --record" 2 'goes with --record' from_pictures --record-last 3

@@ -123,6 +123,28 @@ TEST_F(RecorderTest, WholePairsComeBack)
 	EXPECT_EQ(replay.next(read), Next::END);
 }
 
+TEST_F(RecorderTest, APictureAloneComesBackInItsPlace)
+{
+	auto recorder = this->recorder();
+	recorder->add_pair(pair(1), {});
+	StereoPair alone = pair(2);
+	alone.left = {};
+	recorder->add_alone(alone);
+	recorder->add_pair(pair(3), {});
+	EXPECT_NE(recorder->finish().find("2 pairs"), std::string::npos);
+
+	Replay replay(settings_.path);
+	StereoPair read;
+	ASSERT_EQ(replay.next(read), Next::PAIR);
+	ASSERT_EQ(replay.next(read), Next::ALONE);
+	EXPECT_EQ(read.utime, alone.utime);
+	EXPECT_EQ(read.left.pixels, nullptr);
+	EXPECT_TRUE(is_frame(read.right, PONG_RIGHT, 2));
+	ASSERT_EQ(replay.next(read), Next::PAIR);
+	EXPECT_TRUE(is_frame(read.left, PONG_LEFT, 3));
+	EXPECT_EQ(replay.next(read), Next::END);
+}
+
 TEST_F(RecorderTest, WindowsComeBackWithinTheLastWholePair)
 {
 	settings_.what = RECORD_WINDOWS;

@@ -130,7 +130,7 @@ TEST(TrackStatus, SummaryNamesEveryCause)
 	source.lost.late = 4;
 	EXPECT_EQ(status.summary(source),
 		  "1 pairs, 1 with a ball; 7 pictures dropped (1 without a partner, 2 incomplete, 4 too late, "
-		  "0 out of order); latency median 2.00 ms, p99 2.00 ms, max 2.00 ms");
+		  "0 out of order); latency searching median 2.00 ms, p99 2.00 ms, max 2.00 ms");
 	source.heard = {50, {3, 4}};
 	source.lost.repeated = 5;
 	source.cameras[PONG_RIGHT].losses = 6;

@@ -16,6 +16,9 @@ namespace
 constexpr int BUFFERS = 64; // of a stream: more than are ever waiting to be tracked, so that it never runs dry
 constexpr int STREAM_PRIORITY = 10;
 constexpr std::chrono::seconds CLOCK_INTERVAL(1); // between comparisons of the clocks
+constexpr int CLOCK_TRIES = 8;                    // the fastest is taken,
+constexpr int CLOCK_TRIES_IN_HASTE = 2;           // while a picture waits for it
+constexpr int64_t SETTLED_NS = 100000000;         // so old is no picture that comes
 constexpr int64_t GOOD_CLOCK_NS = 500000;         // error of the first one; pictures of two pulses lie far wider apart
 
 // Aravis' way to report a failure, turned into ours.
@@ -85,7 +88,7 @@ Camera::Camera(pong_side side, const pong_camera &camera, const CaptureSettings 
 	find_clock();
 	open_stream();
 	start();
-	clock_reader_ = std::make_unique<Ticker>(CLOCK_INTERVAL, [this] { read_clock(); });
+	clock_reader_ = std::make_unique<Ticker>(CLOCK_INTERVAL, [this] { read_clock(CLOCK_TRIES); });
 }
 
 Camera::~Camera()
@@ -209,7 +212,7 @@ void Camera::find_clock()
 	has_clock_ = arv_camera_is_feature_available(camera_.get(), "TimestampLatch", nullptr) &&
 		     arv_camera_is_feature_available(camera_.get(), "TimestampLatchValue", nullptr);
 	for (int i = 0; has_clock_ && i < 10 && clock_error_ns_ > GOOD_CLOCK_NS; i++)
-		read_clock();
+		read_clock(CLOCK_TRIES);
 	if (has_clock_ && !clock_.known())
 		throw Absent(name_ + ": does not answer when asked for the time");
 	if (!has_clock_)
@@ -218,13 +221,12 @@ void Camera::find_clock()
 }
 
 // The fastest of several round trips says most about when the latch happened.
-void Camera::read_clock()
+void Camera::read_clock(int tries)
 {
 	if (!has_clock_)
 		return;
-	constexpr int TRIES = 8;
 	ClockReading best = {};
-	for (int i = 0; i < TRIES; i++) {
+	for (int i = 0; i < tries; i++) {
 		Fault fault;
 		ClockReading reading;
 		reading.before_ns = unix_ns();
@@ -238,7 +240,10 @@ void Camera::read_clock()
 			best = reading;
 	}
 	const std::lock_guard<std::mutex> lock(clock_mutex_);
-	clock_.add(best);
+	if (!clock_.add(best)) {
+		clock_set_ns_ = monotonic_ns();
+		pong::say(name_ + ": its clock was set, or this computer's: they are compared anew");
+	}
 	clock_error_ns_ = std::min(clock_error_ns_, best.round_trip_ns() / 2);
 }
 
@@ -302,7 +307,11 @@ void Camera::receive_buffer()
 		return;
 	}
 	repeats_ = 0;
-	if (!receive_(side_, {(exposure_begin_ns(buffer) + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
+	const std::optional<int64_t> begin_ns = exposure_begin_ns(buffer);
+	if (!begin_ns) {
+		counts_.undated++;
+		give_back(buffer);
+	} else if (!receive_(side_, {(*begin_ns + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
 		counts_.late++;
 		give_back(buffer);
 	}
@@ -320,12 +329,29 @@ bool Camera::is_whole(void *buffer) const
 	       size >= static_cast<size_t>(width_) * static_cast<size_t>(height_);
 }
 
-int64_t Camera::exposure_begin_ns(ArvBuffer *buffer)
+int64_t Camera::dated_by_clock(ArvBuffer *buffer)
+{
+	const std::lock_guard<std::mutex> lock(clock_mutex_);
+	return clock_.host_ns(static_cast<int64_t>(arv_buffer_get_timestamp(buffer)));
+}
+
+// A picture that comes at the wrong time has the clocks compared before it is believed. None where the clock was set
+// just now, and the picture is perhaps from before.
+std::optional<int64_t> Camera::exposure_begin_ns(ArvBuffer *buffer)
 {
 	if (!has_clock_)
 		return unix_ns() - exposure_ns_;
-	const std::lock_guard<std::mutex> lock(clock_mutex_);
-	return clock_.host_ns(static_cast<int64_t>(arv_buffer_get_timestamp(buffer)));
+	const int64_t first_packet = static_cast<int64_t>(arv_buffer_get_system_timestamp(buffer));
+	int64_t begin = dated_by_clock(buffer);
+	if (punctuality_.doubts(first_packet - begin) && !lost_) {
+		read_clock(CLOCK_TRIES_IN_HASTE);
+		begin = dated_by_clock(buffer);
+		const std::lock_guard<std::mutex> lock(clock_mutex_);
+		if (punctuality_.doubts(first_packet - begin) && monotonic_ns() - clock_set_ns_ < SETTLED_NS)
+			return std::nullopt;
+	}
+	punctuality_.learn(first_packet - begin);
+	return begin;
 }
 
 std::optional<uint32_t> Camera::address() const

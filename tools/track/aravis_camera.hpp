@@ -14,6 +14,7 @@
 #include "pairing.hpp"
 #include "pongeye.h"
 #include "program.hpp"
+#include "punctuality.hpp"
 #include "still.hpp"
 #include "ticker.hpp"
 
@@ -35,7 +36,7 @@ struct Absent : pong::Failure {
 
 // Pictures that came and were not taken.
 struct CaptureCounts {
-	std::atomic<int64_t> incomplete{0}, late{0}, repeated{0};
+	std::atomic<int64_t> incomplete{0}, late{0}, repeated{0}, undated{0};
 };
 
 class Camera
@@ -94,7 +95,7 @@ public:
 private:
 	void open(const char *id);
 	void start();
-	void read_clock();
+	void read_clock(int tries);
 	// A setting, and between what the camera can have it.
 	struct Wish {
 		const char *what;
@@ -112,7 +113,8 @@ private:
 	static void on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *buffer);
 	void receive_buffer();
 	bool is_whole(void *buffer) const;
-	int64_t exposure_begin_ns(ArvBuffer *buffer);
+	int64_t dated_by_clock(ArvBuffer *buffer);
+	std::optional<int64_t> exposure_begin_ns(ArvBuffer *buffer);
 
 	pong_side side_;
 	std::string name_;
@@ -125,11 +127,13 @@ private:
 	bool has_clock_ = false;
 	std::mutex clock_mutex_;
 	ClockFit clock_;
-	int64_t clock_error_ns_ = INT64_MAX; // at most, of the best reading
+	int64_t clock_set_ns_ = INT64_MIN / 2; // when that was noticed, by monotonic_ns()
+	int64_t clock_error_ns_ = INT64_MAX;   // at most, of the best reading
 	std::atomic<bool> lost_{false};
 	std::atomic<int64_t> last_sign_ns_{0};
 	std::atomic<int> repeats_{0};
 	Still still_;
+	Punctuality punctuality_;
 	CaptureCounts &counts_;
 	std::unique_ptr<Ticker> clock_reader_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -29,63 +30,82 @@ using namespace std::chrono_literals;
 constexpr auto PATIENCE = 20ms;                       // how long next() waits
 constexpr int64_t SILENCE_NS = INT64_C(2000000000);   // without pictures, then the user is told
 constexpr double OVERDUE = 0.18, OVERDUE_PERIODS = 3; // s, and periods: a picture that the others show to be missing
-constexpr size_t QUEUE = 32;                          // pictures of both cameras: 0.15 s at 110 Hz
+constexpr size_t QUEUE = 16;                          // pictures of a camera: 0.15 s at 110 Hz
+
+struct Letter {
+	pong_side side;
+	Picture picture;
+};
 
 // Hands pictures from the cameras' threads to the one that tracks.
 class Mailbox
 {
 public:
-	struct Letter {
-		pong_side side;
-		Picture picture;
-	};
-
-	// False where it is full.
-	bool put(const Letter &letter)
+	// Whether there is room for one more picture of a camera. It is still there when that camera's thread puts one.
+	bool has_room(pong_side side)
 	{
-		{
-			const std::lock_guard<std::mutex> lock(mutex_);
-			if (letters_.full())
-				return false;
-			letters_.push(letter);
-		}
-		arrived_.notify_one();
-		return true;
+		const std::lock_guard<std::mutex> lock(mutex_);
+		return !pictures_[side].full();
 	}
 
-	// False where none comes in time.
-	bool take(Letter &letter, std::chrono::milliseconds patience)
+	void put(pong_side side, const Picture &picture)
+	{
+		const std::lock_guard<std::mutex> lock(mutex_);
+		pictures_[side].push(picture);
+	}
+
+	// Wake the taker.
+	void ring()
+	{
+		arrived_.notify_one();
+	}
+
+	// Wait for a picture, but not for long.
+	void wait()
 	{
 		std::unique_lock<std::mutex> lock(mutex_);
-		if (!arrived_.wait_for(lock, patience, [this] { return !letters_.empty(); }))
+		arrived_.wait_for(lock, PATIENCE, [this] { return !empty(); });
+	}
+
+	// False where none is there.
+	bool take(Letter &letter)
+	{
+		const std::lock_guard<std::mutex> lock(mutex_);
+		if (empty())
 			return false;
-		letter = letters_.pop();
+		letter.side = pictures_[PONG_LEFT].empty() ? PONG_RIGHT : PONG_LEFT;
+		letter.picture = pictures_[letter.side].pop();
 		return true;
 	}
 
 private:
+	bool empty() const
+	{
+		return pictures_[PONG_LEFT].empty() && pictures_[PONG_RIGHT].empty();
+	}
+
 	std::mutex mutex_;
 	std::condition_variable arrived_;
-	Fifo<Letter, QUEUE> letters_;
+	Fifo<Picture, QUEUE> pictures_[2]; // by pong_side
 };
 
 class CameraSource : public Source
 {
 public:
-	CameraSource(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear)
-		: pairing_(settings.rate, [this](pong_side side, const Picture &picture) { give_back(side, picture); }),
+	CameraSource(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear, Onlooker *onlooker)
+		: onlooker_(onlooker),
+		  pairing_(settings.rate, [this](pong_side side, const Picture &picture) { release(side, picture); }),
 		  hear_(std::move(hear))
 	{
+		lock_memory();
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-			seats_[side] = std::make_unique<Seat>(side, rig.camera[side], settings,
-							      [this](pong_side from, const Picture &picture) {
-								      return mailbox_.put({from, picture});
-							      });
+			seats_[side] = std::make_unique<Seat>(
+				side, rig.camera[side], settings,
+				[this](pong_side from, const Picture &picture) { return arrive(from, picture); });
 		const double overdue = settings.rate > 0 ? std::max(OVERDUE, OVERDUE_PERIODS / settings.rate) : OVERDUE;
 		overdue_ns_ = std::llround(overdue * 1e9);
 		heard_ns_ = monotonic_ns();
 		make_thread_realtime(TRACKING_PRIORITY);
-		lock_memory();
 	}
 
 	// First the cameras end, so that nothing comes any more; then what is still here is freed.
@@ -95,27 +115,31 @@ public:
 			seat->begin_to_end();
 		for (auto &seat : seats_)
 			seat.reset();
-		give_back_pair();
+		onlooker_ = nullptr;
+		give_back_lent();
+		if (has_pair_)
+			for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+				give_back(side, pair_.picture[side]);
 		pairing_.clear();
-		for (Mailbox::Letter letter; mailbox_.take(letter, 0ms);)
+		while (!alone_.empty()) {
+			const Letter letter = alone_.pop();
+			give_back(letter.side, letter.picture);
+		}
+		for (Letter letter; mailbox_.take(letter);)
 			give_back(letter.side, letter.picture);
 	}
 
 	Next next(StereoPair &pair) override
 	{
-		give_back_pair();
-		has_pair_ = pairing_.pop(pair_);
-		if (!has_pair_) {
+		give_back_lent();
+		if (!has_pair_ && alone_.empty() && !receive()) {
+			mailbox_.wait();
 			receive();
-			has_pair_ = pairing_.pop(pair_);
 		}
-		if (!has_pair_)
-			return Next::NOTHING_YET;
-		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
-		const int64_t frame = numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
-		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
-			std::max(left.arrival_ns, right.arrival_ns)};
-		return Next::PAIR;
+		// In the order in which they were looked at.
+		if (!alone_.empty())
+			return lend_alone(pair);
+		return has_pair_ ? lend_pair(pair) : Next::NOTHING_YET;
 	}
 
 	bool is_live() const override
@@ -128,6 +152,7 @@ public:
 		Dropped dropped;
 		dropped.unpaired = pairing_.unpaired();
 		for (const auto &seat : seats_) {
+			dropped.unpaired += seat->counts().undated;
 			dropped.incomplete += seat->counts().incomplete;
 			dropped.late += seat->counts().late;
 			dropped.repeated += seat->counts().repeated;
@@ -146,22 +171,71 @@ public:
 	}
 
 private:
-	// Wait for one more picture.
-	void receive()
+	// In the camera's thread. While the onlooker still looks, or waits for the partner of what it has looked at,
+	// the tracking thread is not woken: it would find nothing to do. It looks around by itself soon enough.
+	bool arrive(pong_side side, const Picture &picture)
 	{
-		Mailbox::Letter letter;
-		const bool received = mailbox_.take(letter, PATIENCE);
+		if (!mailbox_.has_room(side))
+			return false;
+		const pong_image image = image_of(picture.buffer);
+		const bool is_first = held_++ == 0;
+		const bool claimed = onlooker_ && onlooker_->claim(side, picture.utime, image, is_first);
+		mailbox_.put(side, picture);
+		if (!claimed || onlooker_->look(side, image))
+			mailbox_.ring();
+		return true;
+	}
+
+	Next lend_pair(StereoPair &pair)
+	{
+		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
+		const int64_t frame = numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
+		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
+			std::max(left.arrival_ns, right.arrival_ns)};
+		lent_[PONG_LEFT] = left;
+		lent_[PONG_RIGHT] = right;
+		has_pair_ = false;
+		return Next::PAIR;
+	}
+
+	Next lend_alone(StereoPair &pair)
+	{
+		const Letter letter = alone_.pop();
+		pair = {};
+		pair.utime = letter.picture.utime;
+		(letter.side == PONG_LEFT ? pair.left : pair.right) = image_of(letter.picture.buffer);
+		pair.arrival_ns = letter.picture.arrival_ns;
+		lent_[letter.side] = letter.picture;
+		return Next::ALONE;
+	}
+
+	// A picture that finds no partner.
+	void release(pong_side side, const Picture &picture)
+	{
+		if (onlooker_ && !alone_.full() && onlooker_->holds(side, image_of(picture.buffer)))
+			alone_.push({side, picture});
+		else
+			give_back(side, picture);
+	}
+
+	// Take the pictures that are here, until there is a pair. False where there is nothing to be lent.
+	bool receive()
+	{
 		hear_pulses();
-		if (received) {
+		Letter letter;
+		while (!(has_pair_ = pairing_.pop(pair_)) && mailbox_.take(letter)) {
 			heard_ns_ = monotonic_ns();
 			told_ = false;
 			numbering_.see(letter.side, exposure_begin(letter.side, letter.picture.utime));
 			pairing_.push(letter.side, letter.picture);
 		}
+		if (has_pair_ || !alone_.empty())
+			return true;
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			seats_[side]->check();
 		look_after_cameras();
 		look_after_trigger();
+		return false;
 	}
 
 	void hear_pulses()
@@ -206,27 +280,32 @@ private:
 
 	void give_back(pong_side side, const Picture &picture)
 	{
+		held_--;
 		if (seats_[side])
 			seats_[side]->give_back(picture.buffer);
 		else
 			free_buffer(picture.buffer);
 	}
 
-	void give_back_pair()
+	void give_back_lent()
 	{
-		if (has_pair_)
-			for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
-				give_back(side, pair_.picture[side]);
-		has_pair_ = false;
+		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+			if (lent_[side].buffer)
+				give_back(side, lent_[side]);
+		lent_[PONG_LEFT] = lent_[PONG_RIGHT] = {};
 	}
 
 	Mailbox mailbox_;                            // outlives the cameras, which put pictures into it
+	std::atomic<int> held_{0};                   // pictures that were not given back yet
+	Onlooker *onlooker_;                         // and so does this one; null: nobody
 	std::array<std::unique_ptr<Seat>, 2> seats_; // by pong_side
 	Pairing pairing_;
 	HearPulse hear_;
 	PulseNumbering numbering_;
-	PicturePair pair_; // lent to the caller
+	PicturePair pair_; // the next one,
 	bool has_pair_ = false;
+	Fifo<Letter, 2> alone_; // and what comes before it
+	Picture lent_[2] = {};  // to the caller, by pong_side
 	int64_t overdue_ns_;
 	int64_t pulse_ns_ = 0; // when the last pulse was heard of
 	int64_t heard_ns_;     // when the last picture came,
@@ -249,10 +328,11 @@ void check_ids(const pong_rig &rig)
 
 } // namespace
 
-std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear)
+std::unique_ptr<Source> open_cameras(const pong_rig &rig, const CaptureSettings &settings, HearPulse hear,
+				     Onlooker *onlooker)
 {
 	check_ids(rig);
-	return std::make_unique<CameraSource>(rig, settings, std::move(hear));
+	return std::make_unique<CameraSource>(rig, settings, std::move(hear), onlooker);
 }
 
 } // namespace track

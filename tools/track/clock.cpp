@@ -36,11 +36,12 @@ int64_t unix_ns()
 	return read_clock(CLOCK_REALTIME);
 }
 
-void ClockFit::add(const ClockReading &reading)
+bool ClockFit::add(const ClockReading &reading)
 {
 	const int64_t host_now = reading.before_ns + reading.round_trip_ns() / 2;
 	const double limit = CONTRADICTION_NS + static_cast<double>(reading.round_trip_ns() + fastest_ns_) / 2;
-	if (known() && std::abs(static_cast<double>(host_ns(reading.device_ns) - host_now)) > limit)
+	const bool agrees = !known() || std::abs(static_cast<double>(host_ns(reading.device_ns) - host_now)) <= limit;
+	if (!agrees)
 		count_ = oldest_ = 0;
 	fastest_ns_ = known() ? std::min(fastest_ns_, reading.round_trip_ns()) : reading.round_trip_ns();
 	if (!known()) {
@@ -54,6 +55,7 @@ void ClockFit::add(const ClockReading &reading)
 			   static_cast<double>(host_now - reading.device_ns - first_difference_ns_),
 			   1 / (sigma * sigma)};
 	fit();
+	return agrees;
 }
 
 void ClockFit::fit()

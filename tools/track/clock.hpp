@@ -33,8 +33,9 @@ struct ClockReading {
 class ClockFit
 {
 public:
-	// A reading that contradicts the line by more than a crystal can drift begins a new one: a clock was set.
-	void add(const ClockReading &reading);
+	// False for a reading that contradicts the line by more than a crystal can drift: a clock was set, and it
+	// begins a new line.
+	bool add(const ClockReading &reading);
 
 	bool known() const
 	{

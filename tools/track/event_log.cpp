@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
+#include <filesystem>
 #include <unistd.h>
 
 #include "program.hpp"
@@ -31,10 +33,17 @@ int64_t load64(const uint8_t *bytes)
 
 } // namespace
 
-EventWriter::EventWriter(const std::string &path) : path_(path), log_(lcm_eventlog_create(path.c_str(), "w"))
+// A file that cannot be written is found out now. What it holds from before stays until there is something to write.
+EventWriter::EventWriter(const std::string &path) : path_(path)
 {
-	if (!log_)
+	const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+	made_ = file >= 0;
+	if (made_)
+		close(file);
+	else if (errno != EEXIST || access(path.c_str(), W_OK) != 0)
 		throw pong::Failure(path + ": " + strerror(errno));
+	else if (std::filesystem::is_directory(path))
+		throw pong::Failure(path + ": " + strerror(EISDIR));
 	// A limit on the size of files is a full disk too, and nothing to die of.
 	signal(SIGXFSZ, SIG_IGN);
 }
@@ -43,11 +52,23 @@ EventWriter::~EventWriter()
 {
 	if (log_)
 		lcm_eventlog_destroy(log_);
+	else if (made_ && !begun_)
+		unlink(path_.c_str());
+}
+
+bool EventWriter::begin()
+{
+	begun_ = true;
+	errno = 0;
+	log_ = lcm_eventlog_create(path_.c_str(), "w");
+	if (!log_)
+		error_ = strerror(errno ? errno : EIO);
+	return log_ != nullptr;
 }
 
 bool EventWriter::write(const char *channel, int64_t utime, const uint8_t *data, size_t size)
 {
-	if (!log_)
+	if (begun_ ? !log_ : !begin())
 		return false;
 	const size_t length = strlen(channel);
 	lcm_eventlog_event_t event = {};

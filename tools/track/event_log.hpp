@@ -20,7 +20,8 @@ namespace track
 class EventWriter
 {
 public:
-	// Throws pong::Failure where the file cannot be made.
+	// Throws pong::Failure where the file cannot be made. Where nothing is ever written none is left behind, and
+	// what was there before stays.
 	explicit EventWriter(const std::string &path);
 	~EventWriter();
 	EventWriter(const EventWriter &) = delete;
@@ -46,10 +47,12 @@ public:
 	}
 
 private:
+	bool begin();
 	void close_at_last_event();
 
 	std::string path_, error_;
-	lcm_eventlog_t *log_;
+	bool made_ = false, begun_ = false;
+	lcm_eventlog_t *log_ = nullptr;
 	int64_t bytes_ = 0; // of whole events
 };
 

@@ -10,6 +10,7 @@
 #include "arguments.hpp"
 #include "cameras.hpp"
 #include "clock.hpp"
+#include "eager_eye.hpp"
 #include "images.hpp"
 #include "live_table.hpp"
 #include "output.hpp"
@@ -20,7 +21,6 @@
 #include "setup.hpp"
 #include "status.hpp"
 #include "trigger_listener.hpp"
-#include "two_eyes.hpp"
 
 namespace track
 {
@@ -45,7 +45,7 @@ struct Sinks {
 };
 
 struct Session {
-	Eye eye;
+	EagerEye &eye;
 	Sinks sinks;
 	Status status;
 	int64_t end_ns; // by monotonic_ns()
@@ -81,14 +81,13 @@ Setup open_setup(const Arguments &arguments, const Replay *replay)
 	return make_setup(text, recorded ? replay->profile() : static_cast<pong_profile>(arguments.profile));
 }
 
-std::unique_ptr<Source> open_source(const Arguments &arguments, const pong_rig &rig, TriggerListener *listener)
+std::unique_ptr<Source> open_live(const Setup &setup, const CaptureSettings &settings, TriggerListener *listener,
+				  EagerEye &eye)
 {
-	if (!arguments.images.empty())
-		return open_images(arguments.images, arguments.fps);
-	const CaptureSettings settings = load_capture_settings(arguments.rig);
-	if (!listener || settings.trigger.empty())
-		return open_cameras(rig, settings);
-	return open_cameras(rig, settings, [listener](TriggerPulse &pulse) { return listener->take(pulse); });
+	HearPulse hear;
+	if (listener && !settings.trigger.empty())
+		hear = [listener](TriggerPulse &pulse) { return listener->take(pulse); };
+	return open_cameras(setup.rig, settings, std::move(hear), &eye);
 }
 
 Sinks open_sinks(const Arguments &arguments, const Setup &setup)
@@ -154,11 +153,14 @@ void track_ball(Source &source, Session &session)
 	StereoPair pair;
 	pong_sight sight;
 	Next next;
-	TwoEyes eyes(session.eye.get(), source.is_live() ? TRACKING_PRIORITY : 0);
 	while (!pong::stop_requested() && (next = source.next(pair)) != Next::END) {
 		if (next == Next::PAIR) {
-			eyes.look(pair, sight);
+			session.eye.look(pair, sight);
 			deliver(pair, sight, session);
+		} else if (next == Next::ALONE) {
+			session.eye.look_alone(pair);
+			if (session.sinks.recording)
+				session.sinks.recording->add_alone(pair);
 		}
 		keep_time(source, session);
 	}
@@ -175,13 +177,18 @@ int run(int argc, char **argv)
 	}
 	std::unique_ptr<Replay> replay = open_replay(arguments);
 	const Setup setup = open_setup(arguments, replay.get());
-	Eye eye = open_eye(setup);
+	const CaptureSettings capture =
+		arguments.from_cameras() ? load_capture_settings(arguments.rig) : CaptureSettings();
+	const Eye eye = open_eye(setup);
+	EagerEye eager(eye.get(), capture.rate);
 	Sinks sinks = open_sinks(arguments, setup);
 	const std::unique_ptr<TriggerListener> listener = open_listener(arguments, sinks);
 	std::unique_ptr<Source> source = std::move(replay);
-	if (!source)
-		source = open_source(arguments, setup.rig, listener.get());
-	Session session = {std::move(eye), std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
+	if (!arguments.images.empty())
+		source = open_images(arguments.images, arguments.fps);
+	else if (!source)
+		source = open_live(setup, capture, listener.get(), eager);
+	Session session = {eager, std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
 	track_ball(*source, session);
 	session.sinks.live.reset();
 	pong::say(session.status.summary(*source));

@@ -39,6 +39,11 @@ bool is_whole(const pongeye::pair_t &message, int side)
 	return message.part_width[side] == message.width[side] && message.part_height[side] == message.height[side];
 }
 
+bool is_absent(const pongeye::pair_t &message, int side)
+{
+	return message.width[side] == 0 && message.height[side] == 0 && size_of(part_of(message, side)) == 0;
+}
+
 bool lies_within(const Part &part, int width, int height)
 {
 	return width > 0 && width <= LARGEST_SIDE && height > 0 && height <= LARGEST_SIDE && part.u >= 0 &&
@@ -105,11 +110,16 @@ bool decode(const std::vector<uint8_t> &data, pongeye::pair_t &message)
 	size_t expected = 0;
 	for (const int side : {PONG_LEFT, PONG_RIGHT}) {
 		const Part part = part_of(message, side);
-		if (!lies_within(part, message.width[side], message.height[side]))
+		if (!is_absent(message, side) && !lies_within(part, message.width[side], message.height[side]))
 			return false;
 		expected += size_of(part);
 	}
-	return expected == size && message.number >= 1;
+	return expected == size;
+}
+
+int pictures_of(const pongeye::pair_t &message)
+{
+	return !is_absent(message, PONG_LEFT) + !is_absent(message, PONG_RIGHT);
 }
 
 // The canvas is the last whole picture, with one part pasted in.
@@ -136,7 +146,9 @@ bool Unpacker::unpack(const pongeye::pair_t &message, StereoPair &pair)
 		Canvas &canvas = canvas_[side];
 		const Part part = part_of(message, side);
 		pong_image &image = side == PONG_LEFT ? pair.left : pair.right;
-		if (is_whole(message, side)) {
+		if (is_absent(message, side)) {
+			image = {};
+		} else if (is_whole(message, side)) {
 			image = {pixels, part.width, part.height, part.width};
 			canvas.width = part.width;
 			canvas.height = part.height;

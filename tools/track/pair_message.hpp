@@ -1,4 +1,5 @@
 // A stereo pair as the message of a recording, and back: whole pictures, or the parts of them that are worth keeping.
+// A picture without a partner is a pair of which one picture has size 0.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,9 @@ void encode(const StereoPair &pair, const Parts &parts, int64_t number, uint8_t 
 
 // Decodes a message from anywhere. False where it is not one that encode() could have made.
 bool decode(const std::vector<uint8_t> &data, pongeye::pair_t &message);
+
+// How many pictures it has: two, or that of one camera alone.
+int pictures_of(const pongeye::pair_t &message);
 
 // Makes pictures of parts: what a message does not have stays as the last whole picture had it.
 class Unpacker

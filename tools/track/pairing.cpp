@@ -8,19 +8,9 @@
 namespace track
 {
 
-namespace
-{
-
-// Pictures of one pulse lie far closer together, those of two pulses a whole period apart. Half a period is the limit;
-// a third leaves room for jitter, and holds even where a learnt period is twice the true one, because every second
-// pulse was missed.
-constexpr double TOLERANCE = 1.0 / 3;
-
-} // namespace
-
 Pairing::Pairing(double rate, Release release)
 	: release_(std::move(release)), last_utime_{INT64_MIN, INT64_MIN}, period_(rate > 0 ? 1e6 / rate : 0),
-	  tolerance_(TOLERANCE * period_)
+	  tolerance_(PAIRING_TOLERANCE * period_)
 {
 }
 
@@ -51,7 +41,7 @@ void Pairing::learn_period(int64_t interval)
 		return;
 	std::nth_element(intervals_, intervals_ + INTERVALS / 2, intervals_ + INTERVALS);
 	period_ = static_cast<double>(intervals_[INTERVALS / 2]);
-	tolerance_ = TOLERANCE * period_;
+	tolerance_ = PAIRING_TOLERANCE * period_;
 }
 
 bool Pairing::pop(PicturePair &pair)

@@ -13,6 +13,11 @@
 namespace track
 {
 
+// Part of a period. Pictures of one pulse lie far closer together, those of two pulses a whole period apart. Half a
+// period is the limit; a third leaves room for jitter, and holds even where a learnt period is twice the true one,
+// because every second pulse was missed.
+constexpr double PAIRING_TOLERANCE = 1.0 / 3;
+
 struct Picture {
 	int64_t utime;      // middle of the exposure
 	int64_t arrival_ns; // monotonic_ns()

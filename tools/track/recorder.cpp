@@ -167,6 +167,19 @@ void Recorder::add_pair(const StereoPair &pair, const pong_sight &sight)
 	}
 }
 
+void Recorder::add_alone(const StereoPair &alone)
+{
+	if (settings_.what != RECORD_ALL)
+		return;
+	const Parts parts = whole_of(alone);
+	if (uint8_t *room = reserve(encoded_size(parts))) {
+		encode(alone, parts, pairs_, room);
+		commit("PONGEYE_ALONE", alone.utime);
+	} else {
+		left_out_++;
+	}
+}
+
 void Recorder::save()
 {
 	queue_.release();

@@ -48,6 +48,10 @@ public:
 	void add_message(const char *channel, int64_t utime, const uint8_t *data, size_t size);
 	void add_pair(const StereoPair &pair, const pong_sight &sight);
 
+	// A picture without a partner that the eye has seen: a replay gives the same only if it shows it too. Without
+	// all pictures it does not anyway.
+	void add_alone(const StereoPair &alone);
+
 	// Write what is held in memory, into a file of its own.
 	void save();
 

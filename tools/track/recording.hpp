@@ -23,6 +23,12 @@ public:
 		recorder_.add_pair(pair, sight);
 	}
 
+	// A picture without a partner that was looked at.
+	void add_alone(const StereoPair &alone)
+	{
+		recorder_.add_alone(alone);
+	}
+
 	// What others said meanwhile.
 	void listen();
 

@@ -70,12 +70,27 @@ pong_profile Replay::profile() const
 	return header_.profile == "paper" ? PONG_PAPER : PONG_BEST;
 }
 
+// Whether an event's message is what its channel says.
+bool Replay::decode_pictures(bool alone)
+{
+	return decode(event_.data, message_) && (alone ? 1 : 2) == pictures_of(message_) &&
+	       message_.number >= (alone ? 0 : 1);
+}
+
+bool Replay::take_alone(StereoPair &alone)
+{
+	if (event_.channel != "PONGEYE_ALONE" || !decode_pictures(true) || !unpacker_.unpack(message_, alone))
+		return false;
+	alone.arrival_ns = monotonic_ns();
+	return true;
+}
+
 // False where the event has no pair that can be made a picture of.
 bool Replay::take_pair(StereoPair &pair)
 {
 	if (event_.channel != "PONGEYE_PAIR")
 		return false;
-	if (!decode(event_.data, message_)) {
+	if (!decode_pictures(false)) {
 		damaged_++;
 		return false;
 	}
@@ -102,6 +117,8 @@ Next Replay::next(StereoPair &pair)
 		}
 		if (take_pair(pair))
 			return Next::PAIR;
+		if (take_alone(pair))
+			return Next::ALONE;
 	}
 }
 

@@ -46,6 +46,8 @@ private:
 
 	void read_header();
 	bool take_header();
+	bool decode_pictures(bool alone);
+	bool take_alone(StereoPair &alone);
 	bool take_pair(StereoPair &pair);
 	int64_t missing() const;
 	void end(EventReader::Result how);

@@ -49,7 +49,8 @@ struct Pulses {
 	int64_t missed[2] = {0, 0}; // by pong_side
 };
 
-enum class Next { PAIR, NOTHING_YET, END };
+// ALONE: a picture without a partner, which was looked at before that was known; the other side's has no pixels.
+enum class Next { PAIR, ALONE, NOTHING_YET, END };
 
 class Source
 {

@@ -31,7 +31,7 @@ void Status::count(const pong_sight &sight, double latency_s)
 	if (!sight.has_ball)
 		return;
 	second_.add(latency_s);
-	run_.add(latency_s);
+	run_[sight.windowed != 0].add(latency_s);
 	epipolar_[epipolar_count_++ % EPIPOLAR_BALLS] = sight.ball.epipolar_distance;
 	rig_watch_.see(sight.ball);
 }
@@ -100,9 +100,12 @@ std::string Status::summary(const Source &source) const
 		text += pong::format("; %lld trigger pulses heard, missed by the left camera %lld, by the right %lld",
 				     number(pulses.heard), number(pulses.missed[PONG_LEFT]),
 				     number(pulses.missed[PONG_RIGHT]));
-	if (outcomes_[PONG_SEEN] > 0)
-		text += pong::format("; latency median %.2f ms, p99 %.2f ms, max %.2f ms", 1e3 * run_.percentile(0.5),
-				     1e3 * run_.percentile(0.99), 1e3 * run_.max());
+	const char *const where[] = {"searching", "windowed"};
+	for (const size_t windowed : {1, 0})
+		if (std::isfinite(run_[windowed].max()))
+			text += pong::format("; latency %s median %.2f ms, p99 %.2f ms, max %.2f ms", where[windowed],
+					     1e3 * run_[windowed].percentile(0.5),
+					     1e3 * run_[windowed].percentile(0.99), 1e3 * run_[windowed].max());
 	return text;
 }
 

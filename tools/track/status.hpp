@@ -62,7 +62,8 @@ private:
 	int64_t begin_ns_; // of the running second
 	int64_t pairs_ = 0, pairs_before_ = 0, balls_before_ = 0;
 	std::array<int64_t, PONG_OUTCOMES> outcomes_ = {};
-	Latencies second_, run_;
+	Latencies second_;
+	Latencies run_[2]; // of the run: where the ball was searched for everywhere, and where it was expected
 	std::array<double, EPIPOLAR_BALLS> epipolar_ = {}; // of the last balls, px
 	size_t epipolar_count_ = 0;
 	RigWatch rig_watch_;
