@@ -57,8 +57,13 @@ class Source
 public:
 	virtual ~Source() = default;
 
-	// Wait for the next pair, but not for ever: where none comes, NOTHING_YET lets the caller do something else.
+	// The next pair; NOTHING_YET where it has not come. By one thread at a time.
 	virtual Next next(StereoPair &pair) = 0;
+
+	// Wait for the next pair, but not for long: then the caller does something else.
+	virtual void wait()
+	{
+	}
 
 	// Whether its pairs come when they come: then whoever looks at them is in a hurry.
 	virtual bool is_live() const
