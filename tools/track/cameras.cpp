@@ -160,6 +160,7 @@ public:
 	{
 		Dropped dropped;
 		dropped.unpaired = pairing_.unpaired();
+		dropped.miscounted = pairing_.miscounted();
 		for (const auto &seat : seats_) {
 			dropped.unpaired += seat->counts().undated;
 			dropped.incomplete += seat->counts().incomplete;
@@ -195,16 +196,22 @@ private:
 		return true;
 	}
 
+	// Where the cameras' counters object, one of their clocks may be wrong by a whole period.
 	Next lend_pair(StereoPair &pair)
 	{
 		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
-		const int64_t frame = numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
+		const int64_t frame =
+			pair_.miscounted ? 0 : numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
 		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
 			std::max(left.arrival_ns, right.arrival_ns)};
 		lent_[PONG_LEFT] = left;
 		lent_[PONG_RIGHT] = right;
 		has_pair_ = false;
-		return Next::PAIR;
+		if (!pair_.miscounted)
+			return Next::PAIR;
+		for (const auto &seat : seats_)
+			seat->doubt_clock();
+		return Next::ALONE;
 	}
 
 	Next lend_alone(StereoPair &pair)

@@ -169,7 +169,7 @@ void Publisher::publish(const StatusReport &report)
 	status_.rejected = report.outcomes[PONG_REJECTED];
 	status_.missed_left = report.missed_left;
 	status_.missed_right = report.missed_right;
-	status_.unpaired = report.causes.unpaired;
+	status_.unpaired = report.causes.unpaired + report.causes.miscounted;
 	status_.incomplete = report.causes.incomplete;
 	status_.late = report.causes.late;
 	status_.repeated = report.causes.repeated;
