@@ -151,7 +151,7 @@ $(foreach name,$(PROGRAMS),$(eval $(call program,$(name))))
 
 # Live calibration looks through the tracker's cameras.
 $(BUILD)/bin/pongeye-calibrate: $(addprefix $(BUILD)/obj/tools/track/,aravis_camera.o cameras.o capture_settings.o clock.o \
-	pairing.o presence.o pulse_numbering.o realtime.o seat.o)
+	pairing.o presence.o pulse_counter.o pulse_numbering.o realtime.o seat.o)
 
 # The benchmark of calibration finds corners as calibration does.
 $(BUILD)/bin/pongeye-bench: $(addprefix $(BUILD)/obj/tools/calibrate/,corners.o pictures.o)

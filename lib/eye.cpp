@@ -254,7 +254,6 @@ void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match);
 	sight->observations = pong_track_count(eye.track.get());
-	sight->has_prediction = predict(eye, match.point.utime, &sight->prediction);
 }
 
 void check_size(const pong_eye &eye, pong_side side, const pong_image &image)
@@ -312,6 +311,8 @@ int pong_eye_expect(pong_eye *eye, int64_t utime)
 		return PONG_NONE;
 	eye->begun = true;
 	eye->utime = utime;
+	for (Side &side : eye->side)
+		side.forget();
 	pong_track_miss(eye->track.get(), utime);
 	expect(*eye);
 	return PONG_FOUND;
@@ -336,6 +337,18 @@ int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight)
 	return sight->has_ball ? PONG_FOUND : PONG_NONE;
 }
 
+int pong_eye_predict(pong_eye *eye, pong_sight *sight)
+{
+	sight->has_prediction = sight->has_ball && predict(*eye, sight->ball.utime, &sight->prediction);
+	return sight->has_prediction ? PONG_FOUND : PONG_NONE;
+}
+
+void pong_eye_keep(pong_eye *eye)
+{
+	for (Side &side : eye->side)
+		side.keep();
+}
+
 int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 		  pong_sight *sight, pong_error *error)
 {
@@ -349,6 +362,9 @@ int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image 
 		}
 		look(*eye, PONG_LEFT, *left);
 		look(*eye, PONG_RIGHT, *right);
-		return pong_eye_join(eye, frame, sight);
+		const int seen = pong_eye_join(eye, frame, sight);
+		pong_eye_predict(eye, sight);
+		pong_eye_keep(eye);
+		return seen;
 	});
 }

@@ -10,7 +10,8 @@
 namespace pong
 {
 
-// The last pictures of one camera, copied: the newest, and those that it is compared with.
+// The last pictures of one camera: the newest, and those that it is compared with. The newest is the caller's until it
+// is kept, for to copy it takes time that whoever waits for the ball does not have.
 class PictureRing
 {
 public:
@@ -22,28 +23,54 @@ public:
 
 	size_t count() const
 	{
-		return count_;
+		return kept_ + (newest_.pixels ? 1 : 0);
 	}
 
 	// The one that was added `age` pictures before the newest, or the oldest.
 	pong_image earlier(size_t age) const
 	{
-		const uint8_t *pixels = pixels_[(count_ - 1 - std::min(age, count_ - 1)) % pixels_.size()].data();
-		return {pixels, width_, height_, width_};
+		const size_t number = count() - 1 - std::min(age, count() - 1);
+		return number == kept_ ? newest_ : pong_image{pixels_of(number), width_, height_, width_};
 	}
 
+	// An earlier one that was not kept is forgotten.
 	void add(const pong_image &image)
 	{
-		uint8_t *copy = pixels_[count_++ % pixels_.size()].data();
+		newest_ = image;
+	}
+
+	// Copy the newest.
+	void keep()
+	{
+		if (!newest_.pixels)
+			return;
+		uint8_t *copy = pixels_of(kept_++);
 		for (int v = 0; v < height_; v++)
-			memcpy(copy + static_cast<size_t>(v) * width_, image.pixels + v * image.stride,
+			memcpy(copy + static_cast<size_t>(v) * width_, newest_.pixels + v * newest_.stride,
 			       static_cast<size_t>(width_));
+		newest_ = {};
+	}
+
+	// As if the newest had never been added, unless it was kept.
+	void forget()
+	{
+		newest_ = {};
 	}
 
 private:
+	const uint8_t *pixels_of(size_t number) const
+	{
+		return pixels_[number % pixels_.size()].data();
+	}
+	uint8_t *pixels_of(size_t number)
+	{
+		return pixels_[number % pixels_.size()].data();
+	}
+
 	int width_, height_;
 	std::vector<std::vector<uint8_t>> pixels_;
-	size_t count_ = 0;
+	size_t kept_ = 0;
+	pong_image newest_ = {}; // not kept yet
 };
 
 } // namespace pong

@@ -630,12 +630,14 @@ PONG_API void pong_eye_free(pong_eye *eye);
 PONG_API int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const pong_image *left, const pong_image *right,
 			   pong_sight *sight, pong_error *error);
 
-/* The same in steps, for those who have a thread for each camera:
+/* The same in steps, for those who have a thread for each camera, and are in a hurry:
  *
  *     pong_eye_expect(eye, utime)                         first, in one thread
  *     pong_eye_look(eye, PONG_LEFT, &left, &error)        both at the same time, each in its own thread,
  *     pong_eye_look(eye, PONG_RIGHT, &right, &error)      or one after the other
- *     pong_eye_join(eye, frame, &sight)                   when both have returned
+ *     pong_eye_join(eye, frame, &sight)                   when both have returned: the ball
+ *     pong_eye_predict(eye, &sight)                       the prediction
+ *     pong_eye_keep(eye)                                  from now on the pictures may change
  *
  * What comes of it is that of pong_eye_push, to the bit. Whoever uses threads makes the earlier step's writes seen by
  * the later one, as any mutex or condition variable does. */
@@ -644,13 +646,22 @@ PONG_API int pong_eye_push(pong_eye *eye, int64_t utime, int64_t frame, const po
  * there. Returns PONG_FOUND, or PONG_NONE where the pair is not later than the one before: drop it then. */
 PONG_API int pong_eye_expect(pong_eye *eye, int64_t utime);
 
-/* Look at one camera's picture of the pair; it is copied. Returns how many places look like a ball, or
- * PONG_ERROR_VALUE if the picture has not its camera's size. */
+/* Look at one camera's picture of the pair. Its pixels must stay until pong_eye_keep, or, where that is left out, until
+ * the next pong_eye_expect. Returns how many places look like a ball, or PONG_ERROR_VALUE if the picture has not its
+ * camera's size. */
 PONG_API int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error);
 
-/* End the pair, both pictures of which were looked at. *sight is always filled. Returns PONG_FOUND with a ball,
- * PONG_NONE without. */
+/* Find the pair's ball, when both pictures were looked at. *sight is always filled, but for the prediction. Returns
+ * PONG_FOUND with a ball, PONG_NONE without. */
 PONG_API int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight);
+
+/* Predict the flight of the ball that pong_eye_join has found. Returns PONG_FOUND, or PONG_NONE where there is no ball,
+ * or too little is known of it. */
+PONG_API int pong_eye_predict(pong_eye *eye, pong_sight *sight);
+
+/* Copy the pictures that were looked at: the next ones are compared with them. A picture that is not kept is forgotten
+ * by the next pong_eye_expect: nothing is compared with it. */
+PONG_API void pong_eye_keep(pong_eye *eye);
 
 #ifdef __cplusplus
 }

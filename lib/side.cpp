@@ -48,11 +48,6 @@ Side::Side(const pong_rig &rig, pong_side side, const pong_settings &settings)
 {
 }
 
-void Side::add(const pong_image &image)
-{
-	pictures_.add(image);
-}
-
 pong_pictures Side::compared() const
 {
 	const size_t gap = static_cast<size_t>(settings_.detect.gap);

@@ -33,7 +33,19 @@ public:
 
 	Side(const pong_rig &rig, pong_side side, const pong_settings &settings);
 
-	void add(const pong_image &image);
+	// The picture is the caller's until keep() copies it.
+	void add(const pong_image &image)
+	{
+		pictures_.add(image);
+	}
+	void keep()
+	{
+		pictures_.keep();
+	}
+	void forget()
+	{
+		pictures_.forget();
+	}
 
 	// Look at the newest picture.
 	void look(const Expectation &expected);

@@ -39,5 +39,6 @@ fault "left:drift=100,right:drift=-100,both:block=65400" 330 '' "clocks that dri
 fault "right:offset=0.5@flight2" 440 'right camera 127.0.0.2: its clock was set' "a clock that is set"
 fault "right:offset=-0.0090909@flight2" 440 'right camera 127.0.0.2: its clock was set' \
 	"a clock that is set back by one period"
+fault "right:miscount@flight2+0.5" 330 '; 12 of two pulses' "counters that disagree"
 fault "left:held" 550 'left camera 127.0.0.1: another program controls it' "a dead client's control runs out"
 finish

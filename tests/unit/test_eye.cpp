@@ -55,13 +55,18 @@ public:
 			pictures[side].add_noise(1.2, static_cast<unsigned>(2 * frame_ + side));
 		}
 		const pong_image left = pictures[0].image(), right = pictures[1].image();
-		const int64_t utime = std::llround(frame_ * 1e6 / fps);
+		const int64_t utime = utime_of(frame_);
 		const long before = allocations();
 		const int code = in_two_threads
 					 ? push_in_two_threads(utime, left, right)
 					 : pong_eye_push(eye_.get(), utime, frame_, &left, &right, &sight, &error);
 		allocated += allocations() - before;
 		return code;
+	}
+
+	int64_t next_utime() const
+	{
+		return utime_of(frame_ + 1);
 	}
 
 	void restart()
@@ -94,6 +99,11 @@ public:
 	bool clutter = false; // an arm moves behind the ball
 
 private:
+	static int64_t utime_of(int frame)
+	{
+		return std::llround(frame * 1e6 / fps);
+	}
+
 	void draw_arm(Picture &picture) const
 	{
 		const double end = 250 + 4 * (frame_ % 20);
@@ -107,7 +117,11 @@ private:
 		std::thread other([this, &left] { pong_eye_look(eye_.get(), PONG_LEFT, &left, nullptr); });
 		pong_eye_look(eye_.get(), PONG_RIGHT, &right, nullptr);
 		other.join();
-		return pong_eye_join(eye_.get(), frame_, &sight);
+		const int seen = pong_eye_join(eye_.get(), frame_, &sight);
+		EXPECT_FALSE(sight.has_prediction);
+		pong_eye_predict(eye_.get(), &sight);
+		pong_eye_keep(eye_.get());
+		return seen;
 	}
 
 	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1.6, -6};
@@ -238,6 +252,24 @@ TEST_P(Eye, LooksInTwoThreadsToTheSameBits)
 		balls += one.sight.has_ball;
 	}
 	EXPECT_GT(balls, 20);
+}
+
+// A picture that is not kept need not outlive the pair, and nothing is compared with it.
+TEST_P(Eye, ForgetsPicturesThatAreNotKept)
+{
+	Scene one(GetParam()), other(GetParam());
+	for (int i = 0; i < 20; i++) {
+		if (i % 3 == 2) {
+			const Picture gone(640, 480, 200);
+			const pong_image image = gone.image();
+			EXPECT_EQ(pong_eye_expect(other.eye(), other.next_utime() - 1), PONG_FOUND);
+			pong_eye_look(other.eye(), PONG_LEFT, &image, nullptr);
+			pong_eye_look(other.eye(), PONG_RIGHT, &image, nullptr);
+		}
+		EXPECT_EQ(one.push(true), other.push(true));
+	}
+	EXPECT_TRUE(one.sight.has_ball);
+	EXPECT_LT(other.error_to_truth(), one.error_to_truth() + 0.001);
 }
 
 TEST_P(Eye, ExpectsOnlyLaterPairs)

@@ -57,9 +57,10 @@ TEST_F(TrackCaptureSettings, Defaults)
 
 TEST_F(TrackCaptureSettings, All)
 {
-	const track::CaptureSettings settings = load("[capture]\nexposure = 0.002\ngain = 6\ntrigger = \"none\"\n"
-						     "rate = 110\npacket_size = 9000\npacket_delay = 1e-5\n"
-						     "edge = \"falling\"\noffset = [16, 8]\n");
+	const track::CaptureSettings settings =
+		load("[capture]\nexposure = 0.002\ngain = 6\ntrigger = \"none\"\n"
+		     "rate = 110\npacket_size = 9000\npacket_delay = 1e-5\ncounter = false\nptp = false\n"
+		     "edge = \"falling\"\noffset = [16, 8]\n");
 	EXPECT_EQ(settings.exposure, 0.002);
 	EXPECT_TRUE(settings.has_gain);
 	EXPECT_EQ(settings.gain, 6);
@@ -67,6 +68,8 @@ TEST_F(TrackCaptureSettings, All)
 	EXPECT_EQ(settings.rate, 110);
 	EXPECT_EQ(settings.packet_size, 9000);
 	EXPECT_EQ(settings.packet_delay, 1e-5);
+	EXPECT_FALSE(settings.counter);
+	EXPECT_FALSE(settings.ptp);
 	EXPECT_TRUE(settings.falling_edge);
 	EXPECT_EQ(settings.offset_x, 16);
 	EXPECT_EQ(settings.offset_y, 8);
@@ -76,7 +79,7 @@ TEST_F(TrackCaptureSettings, Complaints)
 {
 	EXPECT_EQ(failure_of("[capture]\nexposre = 1\n"),
 		  ":2:1: unknown key 'exposre' in [capture]: there are exposure, gain, trigger, edge, rate, offset, "
-		  "packet_size, packet_delay");
+		  "counter, ptp, packet_size, packet_delay");
 	EXPECT_EQ(failure_of("[capture]\nexposure = 2000\n"),
 		  ":2:12: capture.exposure must be a number between 1e-06 and 1 s");
 	EXPECT_EQ(failure_of("[capture]\ngain = \"high\"\n"),

@@ -81,6 +81,13 @@ protected:
 		return claimed;
 	}
 
+	static void see(EagerEye &eager, StereoPair &pair, pong_sight &sight)
+	{
+		eager.look(pair, sight);
+		eager.predict(sight);
+		eager.end_pair();
+	}
+
 	static constexpr int FRAMES = 30;
 	pong_rig rig_;
 	pong_settings settings_;
@@ -100,7 +107,7 @@ TEST_F(EagerEyeTest, SeesWhatIsSeenPairByPair)
 		claimed += looked[PONG_LEFT] + looked[PONG_RIGHT];
 		StereoPair now = pair(frame);
 		pong_sight sight, expected;
-		eager.look(now, sight);
+		see(eager, now, sight);
 		EXPECT_NEAR(now.utime, pair(frame).utime, SKEW / 2 + 1);
 		pong_eye_push(late.get(), now.utime, frame, &now.left, &now.right, &expected, nullptr);
 		EXPECT_EQ(memcmp(&sight, &expected, sizeof sight), 0) << frame;
@@ -124,7 +131,7 @@ TEST_F(EagerEyeTest, LearnsByHowMuchTheCamerasTimesDiffer)
 		now = pair(frame);
 		now.utime = time + SKEW / 2;
 		pong_sight sight;
-		eager.look(now, sight);
+		see(eager, now, sight);
 	}
 	EXPECT_NEAR(now.utime, utime(2 * FRAMES - 1) + SKEW / 2, 1);
 }
@@ -151,8 +158,8 @@ TEST_F(EagerEyeTest, IsRepeatedWithThePicturesThatStayedAlone)
 		arrive(eager, PONG_LEFT, frame);
 		StereoPair now = pair(frame);
 		pong_sight sight, expected;
-		eager.look(now, sight);
-		replayed.look(now, expected);
+		see(eager, now, sight);
+		see(replayed, now, expected);
 		EXPECT_EQ(memcmp(&sight, &expected, sizeof sight), 0) << frame;
 		balls += sight.has_ball;
 	}
@@ -167,7 +174,7 @@ TEST_F(EagerEyeTest, WaitsForThePairWhereTheLastOneWasNotComplete)
 	pong_sight sight;
 	EXPECT_FALSE(arrive(eager, PONG_LEFT, 0)) << "nothing is known of the other camera yet";
 	StereoPair now = pair(0);
-	eager.look(now, sight);
+	see(eager, now, sight);
 	EXPECT_FALSE(eager.claim(PONG_LEFT, utime(1), image(PONG_LEFT, 1), false)) << "an earlier picture waits";
 	EXPECT_TRUE(arrive(eager, PONG_LEFT, 1));
 	EXPECT_FALSE(arrive(eager, PONG_LEFT, 2)) << "its pair is not at its end";
@@ -178,7 +185,7 @@ TEST_F(EagerEyeTest, WaitsForThePairWhereTheLastOneWasNotComplete)
 	EXPECT_EQ(single.utime, utime(1));
 	EXPECT_FALSE(arrive(eager, PONG_LEFT, 3));
 	now = pair(3);
-	eager.look(now, sight);
+	see(eager, now, sight);
 	EXPECT_TRUE(arrive(eager, PONG_LEFT, 4));
 }
 

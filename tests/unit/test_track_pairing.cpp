@@ -218,4 +218,26 @@ TEST(TrackPairing, NeverAWrongPair)
 	}
 }
 
+// Times that agree are not enough where the cameras' counters differ by another number of pulses than before. It is
+// believed when it stands, for a camera that misses an edge lags behind for good.
+TEST(TrackPairing, CountersMustAgree)
+{
+	Pairing pairing(RATE, [](pong_side, const Picture &) { ADD_FAILURE(); });
+	std::vector<bool> miscounted;
+	for (int pulse = 0; pulse < 12; pulse++) {
+		Picture left = picture_of(pulse), right = picture_of(pulse);
+		left.pulses = 100 + pulse;
+		right.pulses = pulse + (pulse == 2 || pulse >= 6 ? 1 : 0);
+		pairing.push(PONG_LEFT, left);
+		pairing.push(PONG_RIGHT, right);
+		PicturePair pair;
+		ASSERT_TRUE(pairing.pop(pair));
+		EXPECT_EQ(pair.frame, pair.miscounted ? 0 : pulse);
+		miscounted.push_back(pair.miscounted);
+	}
+	EXPECT_EQ(miscounted,
+		  std::vector<bool>({false, false, true, false, false, false, true, true, true, false, false, false}));
+	EXPECT_EQ(pairing.miscounted(), 8);
+}
+
 } // namespace

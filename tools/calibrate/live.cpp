@@ -166,7 +166,9 @@ std::vector<Pair> collect(const Arguments &arguments)
 		const track::Next next = source->next(pictures);
 		if (next == track::Next::END)
 			break;
-		if (next == track::Next::NOTHING_YET || pictures.utime < next_look)
+		if (next == track::Next::NOTHING_YET)
+			source->wait();
+		if (next != track::Next::PAIR || pictures.utime < next_look)
 			continue;
 		next_look = pictures.utime + look_every_us;
 		Pair pair = look(pictures, arguments.board);

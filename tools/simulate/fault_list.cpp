@@ -33,6 +33,7 @@ constexpr Kind kinds[] = {
 	{"drift", FaultKind::drift, true, -1000, 1000},
 	{"held", FaultKind::held, false, 1, 1},
 	{"block", FaultKind::block, true, 1, 65535},
+	{"miscount", FaultKind::miscount, false, 1, 1},
 };
 
 // Reads one fault, part by part.

@@ -61,7 +61,8 @@ pong::Options options(Request *request)
 		"                          CAMERA: left, right, both. KIND: lose=PART, reorder=PART (of the packets),\n"
 		"                          miss, truncate (pulses, pictures; =PART of them), freeze, die, held (its\n"
 		"                          control, by a dead client), offset=S, drift=PPM (its clock), block=ID (the\n"
-		"                          first frame's). BEGIN: seconds from the first pulse, flightN or bounceN",
+		"                          first frame's), miscount (one pulse more). BEGIN: seconds from the first "
+		"pulse, flightN or bounceN",
 		&request->faults);
 	return options;
 }

@@ -84,7 +84,10 @@ Camera::Camera(pong_side side, const pong_camera &camera, const CaptureSettings 
 	set_picture(camera, settings);
 	set_exposure(settings);
 	set_trigger(settings);
+	if (settings.counter && !settings.trigger.empty())
+		counter_.open(camera_.get(), settings.trigger, settings.falling_edge);
 	set_packets(settings);
+	set_ptp(settings);
 	find_clock();
 	open_stream();
 	start();
@@ -207,6 +210,22 @@ void Camera::set_packets(const CaptureSettings &settings)
 	fault.check(name_, "cannot set the delay between packets");
 }
 
+// A clock that follows another one over the network is compared like any other: PTP may lose its master, or find
+// another.
+void Camera::set_ptp(const CaptureSettings &settings)
+{
+	for (const char *const feature : {"PtpEnable", "GevIEEE1588"}) {
+		if (!arv_camera_is_feature_available(camera_.get(), feature, nullptr))
+			continue;
+		Fault fault;
+		if (settings.ptp != (arv_camera_get_boolean(camera_.get(), feature, nullptr) != FALSE))
+			arv_camera_set_boolean(camera_.get(), feature, settings.ptp, fault);
+		if (fault.failed())
+			pong::say(name_ + ": cannot switch its clock's PTP: " + fault.text());
+		return;
+	}
+}
+
 void Camera::find_clock()
 {
 	has_clock_ = arv_camera_is_feature_available(camera_.get(), "TimestampLatch", nullptr) &&
@@ -307,11 +326,20 @@ void Camera::receive_buffer()
 		return;
 	}
 	repeats_ = 0;
+	g_object_ref(buffer); // whoever takes it may let go of it before it is remembered
+	const Object<ArvBuffer> held(buffer);
+	hand_on(buffer, arrival_ns);
+	still_.remember(image_of(buffer));
+}
+
+void Camera::hand_on(ArvBuffer *buffer, int64_t arrival_ns)
+{
 	const std::optional<int64_t> begin_ns = exposure_begin_ns(buffer);
 	if (!begin_ns) {
 		counts_.undated++;
 		give_back(buffer);
-	} else if (!receive_(side_, {(*begin_ns + exposure_ns_ / 2) / 1000, arrival_ns, buffer})) {
+	} else if (!receive_(side_,
+			     {(*begin_ns + exposure_ns_ / 2) / 1000, arrival_ns, buffer, counter_.read(buffer)})) {
 		counts_.late++;
 		give_back(buffer);
 	}
@@ -343,7 +371,8 @@ std::optional<int64_t> Camera::exposure_begin_ns(ArvBuffer *buffer)
 		return unix_ns() - exposure_ns_;
 	const int64_t first_packet = static_cast<int64_t>(arv_buffer_get_system_timestamp(buffer));
 	int64_t begin = dated_by_clock(buffer);
-	if (punctuality_.doubts(first_packet - begin) && !lost_) {
+	const bool doubted = clock_doubted_.exchange(false);
+	if ((doubted || punctuality_.doubts(first_packet - begin)) && !lost_) {
 		read_clock(CLOCK_TRIES_IN_HASTE);
 		begin = dated_by_clock(buffer);
 		const std::lock_guard<std::mutex> lock(clock_mutex_);

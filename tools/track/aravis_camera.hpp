@@ -11,23 +11,17 @@
 
 #include "capture_settings.hpp"
 #include "clock.hpp"
+#include "object.hpp"
 #include "pairing.hpp"
 #include "pongeye.h"
 #include "program.hpp"
+#include "pulse_counter.hpp"
 #include "punctuality.hpp"
 #include "still.hpp"
 #include "ticker.hpp"
 
 namespace track
 {
-
-struct ObjectDeleter {
-	void operator()(gpointer object) const
-	{
-		g_object_unref(object);
-	}
-};
-template<class T> using Object = std::unique_ptr<T, ObjectDeleter>;
 
 // The camera is not there, or not to be had just now: it may come.
 struct Absent : pong::Failure {
@@ -65,6 +59,12 @@ public:
 	}
 
 	void give_back(void *buffer);
+
+	// Have its clock compared before the next picture is believed.
+	void doubt_clock()
+	{
+		clock_doubted_ = true;
+	}
 
 	// Aravis says that the camera no longer answers, or that another program has taken it.
 	bool lost() const
@@ -107,11 +107,13 @@ private:
 	void check_limits(const Wish &wish) const;
 	void set_exposure(const CaptureSettings &settings);
 	void set_trigger(const CaptureSettings &settings);
+	void set_ptp(const CaptureSettings &settings);
 	void set_packets(const CaptureSettings &settings);
 	void find_clock();
 	void open_stream();
 	static void on_stream(void *camera, ArvStreamCallbackType event, ArvBuffer *buffer);
 	void receive_buffer();
+	void hand_on(ArvBuffer *buffer, int64_t arrival_ns);
 	bool is_whole(void *buffer) const;
 	int64_t dated_by_clock(ArvBuffer *buffer);
 	std::optional<int64_t> exposure_begin_ns(ArvBuffer *buffer);
@@ -129,7 +131,8 @@ private:
 	ClockFit clock_;
 	int64_t clock_set_ns_ = INT64_MIN / 2; // when that was noticed, by monotonic_ns()
 	int64_t clock_error_ns_ = INT64_MAX;   // at most, of the best reading
-	std::atomic<bool> lost_{false};
+	PulseCounter counter_;
+	std::atomic<bool> lost_{false}, clock_doubted_{false};
 	std::atomic<int64_t> last_sign_ns_{0};
 	std::atomic<int> repeats_{0};
 	Still still_;

@@ -27,7 +27,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr auto PATIENCE = 20ms;                       // how long next() waits
+constexpr auto PATIENCE = 20ms;                       // how long wait() waits
 constexpr int64_t SILENCE_NS = INT64_C(2000000000);   // without pictures, then the user is told
 constexpr double OVERDUE = 0.18, OVERDUE_PERIODS = 3; // s, and periods: a picture that the others show to be missing
 constexpr size_t QUEUE = 16;                          // pictures of a camera: 0.15 s at 110 Hz
@@ -54,17 +54,22 @@ public:
 		pictures_[side].push(picture);
 	}
 
-	// Wake the taker.
+	// Wake whoever waits, or will.
 	void ring()
 	{
+		{
+			const std::lock_guard<std::mutex> lock(mutex_);
+			rung_ = true;
+		}
 		arrived_.notify_one();
 	}
 
-	// Wait for a picture, but not for long.
+	// Wait for the ring, but not for long.
 	void wait()
 	{
 		std::unique_lock<std::mutex> lock(mutex_);
-		arrived_.wait_for(lock, PATIENCE, [this] { return !empty(); });
+		arrived_.wait_for(lock, PATIENCE, [this] { return rung_; });
+		rung_ = false;
 	}
 
 	// False where none is there.
@@ -86,6 +91,7 @@ private:
 
 	std::mutex mutex_;
 	std::condition_variable arrived_;
+	bool rung_ = false;
 	Fifo<Picture, QUEUE> pictures_[2]; // by pong_side
 };
 
@@ -132,14 +138,17 @@ public:
 	Next next(StereoPair &pair) override
 	{
 		give_back_lent();
-		if (!has_pair_ && alone_.empty() && !receive()) {
-			mailbox_.wait();
+		if (!has_pair_ && alone_.empty())
 			receive();
-		}
 		// In the order in which they were looked at.
 		if (!alone_.empty())
 			return lend_alone(pair);
 		return has_pair_ ? lend_pair(pair) : Next::NOTHING_YET;
+	}
+
+	void wait() override
+	{
+		mailbox_.wait();
 	}
 
 	bool is_live() const override
@@ -151,6 +160,7 @@ public:
 	{
 		Dropped dropped;
 		dropped.unpaired = pairing_.unpaired();
+		dropped.miscounted = pairing_.miscounted();
 		for (const auto &seat : seats_) {
 			dropped.unpaired += seat->counts().undated;
 			dropped.incomplete += seat->counts().incomplete;
@@ -186,16 +196,22 @@ private:
 		return true;
 	}
 
+	// Where the cameras' counters object, one of their clocks may be wrong by a whole period.
 	Next lend_pair(StereoPair &pair)
 	{
 		const Picture &left = pair_.picture[PONG_LEFT], &right = pair_.picture[PONG_RIGHT];
-		const int64_t frame = numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
+		const int64_t frame =
+			pair_.miscounted ? 0 : numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
 		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
 			std::max(left.arrival_ns, right.arrival_ns)};
 		lent_[PONG_LEFT] = left;
 		lent_[PONG_RIGHT] = right;
 		has_pair_ = false;
-		return Next::PAIR;
+		if (!pair_.miscounted)
+			return Next::PAIR;
+		for (const auto &seat : seats_)
+			seat->doubt_clock();
+		return Next::ALONE;
 	}
 
 	Next lend_alone(StereoPair &pair)
@@ -218,8 +234,8 @@ private:
 			give_back(side, picture);
 	}
 
-	// Take the pictures that are here, until there is a pair. False where there is nothing to be lent.
-	bool receive()
+	// Take the pictures that are here, until there is a pair.
+	void receive()
 	{
 		hear_pulses();
 		Letter letter;
@@ -230,12 +246,11 @@ private:
 			pairing_.push(letter.side, letter.picture);
 		}
 		if (has_pair_ || !alone_.empty())
-			return true;
+			return;
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			seats_[side]->check();
 		look_after_cameras();
 		look_after_trigger();
-		return false;
 	}
 
 	void hear_pulses()

@@ -40,6 +40,14 @@ public:
 		return static_cast<int>(*value);
 	}
 
+	bool yes_or_no() const
+	{
+		const std::optional<bool> value = node_.value_exact<bool>();
+		if (!value)
+			fail("must be true or false");
+		return *value;
+	}
+
 	std::string text() const
 	{
 		const std::optional<std::string> value = node_.value<std::string>();
@@ -100,6 +108,10 @@ void set(CaptureSettings &settings, const std::string &path, const toml::key &ke
 		settings.falling_edge = entry.second_of("rising", "falling");
 	} else if (key == "offset") {
 		entry.place_on_sensor(settings.offset_x, settings.offset_y);
+	} else if (key == "counter") {
+		settings.counter = entry.yes_or_no();
+	} else if (key == "ptp") {
+		settings.ptp = entry.yes_or_no();
 	} else if (key == "packet_size") {
 		settings.packet_size = entry.integer(576, 16000, "bytes");
 	} else if (key == "packet_delay") {
@@ -107,7 +119,7 @@ void set(CaptureSettings &settings, const std::string &path, const toml::key &ke
 	} else {
 		throw pong::Failure(place(path, key.source()) + ": unknown key '" + std::string(key.str()) +
 				    "' in [capture]: there are exposure, gain, trigger, edge, rate, offset, "
-				    "packet_size, packet_delay");
+				    "counter, ptp, packet_size, packet_delay");
 	}
 }
 

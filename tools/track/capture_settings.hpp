@@ -8,6 +8,8 @@
 //     rate = 110.0        # pictures a second; without it: learnt from the pictures
 //     offset = [0, 0]     # px: where on the sensor the picture begins, whose size is that of [left] and [right]
 //     packet_size = 9000  # bytes; without it: the largest that comes through
+//     counter = true      # have the camera count the trigger's pulses, where it can; without it: true
+//     ptp = true          # have its clock follow the network's by PTP, where it can; without it: true
 //     packet_delay = 0    # s between packets, where both cameras share a cable; without it: what the camera is set to
 //
 // Pixels are grey, of 8 bits (Mono8): nothing else can be tracked.
@@ -26,6 +28,8 @@ struct CaptureSettings {
 	bool falling_edge = false;     // of the trigger, that begins the exposure
 	double rate = 0;               // Hz; 0: not given
 	int offset_x = 0, offset_y = 0;
+	bool counter = true;      // of pulses, where the camera has one
+	bool ptp = true;          // where the camera has it
 	int packet_size = 0;      // bytes; 0: not given
 	double packet_delay = -1; // s; below 0: not given
 };

@@ -101,6 +101,7 @@ void EagerEye::learn_difference()
 
 void EagerEye::end(bool complete)
 {
+	pong_eye_keep(eye_);
 	const std::lock_guard<std::mutex> lock(mutex_);
 	learn_difference();
 	parts_[PONG_LEFT] = parts_[PONG_RIGHT] = {};
@@ -113,7 +114,6 @@ void EagerEye::look(StereoPair &pair, pong_sight &sight)
 	sight = {};
 	if (!begin_unless_begun(pair)) {
 		sight.outcome = PONG_OUT_OF_ORDER;
-		end(true);
 		return;
 	}
 	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
@@ -122,6 +122,15 @@ void EagerEye::look(StereoPair &pair, pong_sight &sight)
 	if (*error_.text)
 		throw pong::Failure(pong::format("pair %lld: %s", static_cast<long long>(pair.frame), error_.text));
 	pong_eye_join(eye_, pair.frame, &sight);
+}
+
+void EagerEye::predict(pong_sight &sight)
+{
+	pong_eye_predict(eye_, &sight);
+}
+
+void EagerEye::end_pair()
+{
 	end(true);
 }
 

@@ -28,13 +28,17 @@ public:
 	bool look(pong_side side, const pong_image &image) override;
 	bool holds(pong_side side, const pong_image &image) override;
 
-	// In the tracking thread: look at what nobody has looked at yet, and see the pair to its end. It is given the
-	// time that the eye was told. What comes of it is what pong_eye_push makes of pair and time, to the bit. Throws
-	// pong::Failure where a picture has not its camera's size.
+	// The rest is for one thread at a time. Look at what nobody has looked at yet, and find the pair's ball. The
+	// pair is given the time that the eye was told. Throws pong::Failure where a picture has not its camera's size.
 	void look(StereoPair &pair, pong_sight &sight);
 
-	// In the tracking thread: there is no partner for this picture, which was claimed or comes from a recording. It
-	// is given the time that the eye was told.
+	// Then predict the ball's flight, and see the pair to its end. What comes of it all is what pong_eye_push makes
+	// of pair and time, to the bit.
+	void predict(pong_sight &sight);
+	void end_pair();
+
+	// There is no partner for this picture, which was claimed or comes from a recording. It is given the time that
+	// the eye was told.
 	void look_alone(StereoPair &alone);
 
 private:
@@ -57,10 +61,10 @@ private:
 	std::condition_variable changed_;
 	Part parts_[2];         // by pong_side
 	bool begun_ = false;    // the eye expects a pair
-	bool taken_ = false;    // the tracking thread has the eye
+	bool taken_ = false;    // somebody sees the pair to its end
 	bool in_step_ = false;  // the last pair was complete
 	int looking_ = 0;       // cameras' threads,
-	bool waiting_ = false;  // and the tracking thread waits for them
+	bool waiting_ = false;  // and somebody waits for them
 	int64_t utime_ = 0;     // of the pair that is begun
 	double difference_ = 0; // right less left time of a pair, of late, us
 	pong_error error_ = {}; // of a look, where its text is not empty

@@ -59,11 +59,13 @@ public:
 		return mode == "On" ? word("TriggerSource") + "," + word("TriggerActivation") : mode;
 	}
 
-	// How its clock can be compared with others.
+	// How its clock can be compared with others, and whether it follows one: Slave, Master, Disabled and others.
 	std::string clock() const
 	{
-		if (has("PtpEnable"))
-			return "ptp";
+		if (has("PtpStatus"))
+			return "ptp," + word("PtpStatus");
+		if (has("GevIEEE1588Status"))
+			return "ptp," + word("GevIEEE1588Status");
 		return has("TimestampLatch") ? "latch" : "-";
 	}
 

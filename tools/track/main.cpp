@@ -11,6 +11,7 @@
 #include "cameras.hpp"
 #include "clock.hpp"
 #include "eager_eye.hpp"
+#include "fast_path.hpp"
 #include "images.hpp"
 #include "live_table.hpp"
 #include "output.hpp"
@@ -45,7 +46,6 @@ struct Sinks {
 };
 
 struct Session {
-	EagerEye &eye;
 	Sinks sinks;
 	Status status;
 	int64_t end_ns; // by monotonic_ns()
@@ -82,12 +82,12 @@ Setup open_setup(const Arguments &arguments, const Replay *replay)
 }
 
 std::unique_ptr<Source> open_live(const Setup &setup, const CaptureSettings &settings, TriggerListener *listener,
-				  EagerEye &eye)
+				  Onlooker &onlooker)
 {
 	HearPulse hear;
 	if (listener && !settings.trigger.empty())
 		hear = [listener](TriggerPulse &pulse) { return listener->take(pulse); };
-	return open_cameras(setup.rig, settings, std::move(hear), &eye);
+	return open_cameras(setup.rig, settings, std::move(hear), &onlooker);
 }
 
 Sinks open_sinks(const Arguments &arguments, const Setup &setup)
@@ -110,19 +110,17 @@ int64_t end_after(double seconds)
 	return seconds > 0 ? monotonic_ns() + std::llround(seconds * 1e9) : INT64_MAX;
 }
 
-// Publishing comes first: somebody swings at it.
-void deliver(const StereoPair &pair, const pong_sight &sight, Session &session)
+// All that has time. What is to be published is so already.
+void deliver(const Seen &seen, Session &session)
 {
 	const Sinks &sinks = session.sinks;
-	if (sinks.publisher)
-		sinks.publisher->publish(sight);
-	session.status.count(sight, static_cast<double>(monotonic_ns() - pair.arrival_ns) * 1e-9);
+	session.status.count(seen.sight, static_cast<double>(seen.published_ns - seen.pair.arrival_ns) * 1e-9);
 	if (sinks.output)
-		sinks.output->write(pair, sight);
+		sinks.output->write(seen.pair, seen.sight);
 	if (sinks.live)
-		sinks.live->see(sight);
+		sinks.live->see(seen.sight);
 	if (sinks.recording)
-		sinks.recording->add(pair, sight);
+		sinks.recording->add(seen.pair, seen.sight);
 }
 
 // What time brings, whether pairs come or not.
@@ -147,22 +145,44 @@ void keep_time(const Source &source, Session &session)
 		pong::request_stop();
 }
 
-// The loop.
-void track_ball(Source &source, Session &session)
+// While it lives, the cameras' threads may take the fast path.
+class Shift
 {
-	StereoPair pair;
-	pong_sight sight;
-	Next next;
-	while (!pong::stop_requested() && (next = source.next(pair)) != Next::END) {
-		if (next == Next::PAIR) {
-			session.eye.look(pair, sight);
-			deliver(pair, sight, session);
-		} else if (next == Next::ALONE) {
-			session.eye.look_alone(pair);
-			if (session.sinks.recording)
-				session.sinks.recording->add_alone(pair);
-		}
+public:
+	Shift(FastPath &fast_path, Source &source) : fast_path_(fast_path)
+	{
+		fast_path_.begin(source);
+	}
+
+	~Shift()
+	{
+		fast_path_.end();
+	}
+
+	Shift(const Shift &) = delete;
+	Shift &operator=(const Shift &) = delete;
+
+private:
+	FastPath &fast_path_;
+};
+
+// The loop. What was published is delivered, too, before it ends.
+void track_ball(Source &source, FastPath &fast_path, Session &session)
+{
+	const Shift shift(fast_path, source);
+	for (;;) {
+		const Seen &seen = fast_path.next();
+		if (seen.next == Next::END)
+			return;
+		if (seen.next == Next::PAIR)
+			deliver(seen, session);
+		else if (seen.next == Next::ALONE && session.sinks.recording)
+			session.sinks.recording->add_alone(seen.pair);
 		keep_time(source, session);
+		if (pong::stop_requested())
+			return;
+		if (seen.next == Next::NOTHING_YET)
+			fast_path.wait();
 	}
 }
 
@@ -182,14 +202,15 @@ int run(int argc, char **argv)
 	const Eye eye = open_eye(setup);
 	EagerEye eager(eye.get(), capture.rate);
 	Sinks sinks = open_sinks(arguments, setup);
+	FastPath fast_path(eager, sinks.publisher.get());
 	const std::unique_ptr<TriggerListener> listener = open_listener(arguments, sinks);
 	std::unique_ptr<Source> source = std::move(replay);
 	if (!arguments.images.empty())
 		source = open_images(arguments.images, arguments.fps);
 	else if (!source)
-		source = open_live(setup, capture, listener.get(), eager);
-	Session session = {eager, std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
-	track_ball(*source, session);
+		source = open_live(setup, capture, listener.get(), fast_path);
+	Session session = {std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};
+	track_ball(*source, fast_path, session);
 	session.sinks.live.reset();
 	pong::say(session.status.summary(*source));
 	return session.sinks.recording && !session.sinks.recording->finish();

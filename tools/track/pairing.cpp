@@ -51,9 +51,12 @@ bool Pairing::pop(PicturePair &pair)
 		const int64_t difference = right.front().utime - left.front().utime;
 		if (static_cast<double>(std::abs(difference)) < tolerance_) {
 			pair.utime = left.front().utime + difference / 2;
-			pair.frame = number_frame(pair.utime);
 			pair.picture[PONG_LEFT] = left.pop();
 			pair.picture[PONG_RIGHT] = right.pop();
+			pair.miscounted =
+				!check_.agrees(pair.picture[PONG_LEFT].pulses, pair.picture[PONG_RIGHT].pulses);
+			pair.frame = pair.miscounted ? 0 : number_frame(pair.utime);
+			miscounted_ += pair.miscounted ? 2 : 0;
 			return true;
 		}
 		// Whatever the other side still brings is later: the earlier of the two stays alone.

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "fifo.hpp"
 #include "pongeye.h"
+#include "pulse_check.hpp"
 
 namespace track
 {
@@ -19,15 +21,17 @@ namespace track
 constexpr double PAIRING_TOLERANCE = 1.0 / 3;
 
 struct Picture {
-	int64_t utime;      // middle of the exposure
-	int64_t arrival_ns; // monotonic_ns()
-	void *buffer;       // whatever holds the pixels
+	int64_t utime;                                // middle of the exposure
+	int64_t arrival_ns;                           // monotonic_ns()
+	void *buffer;                                 // whatever holds the pixels
+	std::optional<int64_t> pulses = std::nullopt; // that its camera has counted, where it does
 };
 
 struct PicturePair {
 	int64_t utime;      // the mean of both
 	int64_t frame;      // trigger pulses since the first pair, which has 0
 	Picture picture[2]; // by pong_side
+	bool miscounted;    // of two pulses, by the cameras' counters: then it has no frame number
 };
 
 class Pairing
@@ -55,6 +59,12 @@ public:
 		return unpaired_;
 	}
 
+	// Pictures of the miscounted pairs so far.
+	int64_t miscounted() const
+	{
+		return miscounted_;
+	}
+
 private:
 	static constexpr size_t WAITING = 16;
 	static constexpr size_t INTERVALS = 8;
@@ -72,7 +82,8 @@ private:
 	size_t interval_count_ = 0;
 	bool paired_ = false;
 	int64_t pair_utime_ = 0, frame_ = 0;
-	int64_t unpaired_ = 0;
+	PulseCheck check_;
+	int64_t unpaired_ = 0, miscounted_ = 0;
 };
 
 } // namespace track

@@ -137,12 +137,16 @@ void fill_path(const pong_prediction &prediction, pongeye::prediction_t &message
 
 } // namespace
 
-void Publisher::publish(const pong_sight &sight)
+void Publisher::publish_ball(const pong_sight &sight)
 {
 	if (!sight.has_ball)
 		return;
 	fill(sight.ball, ball_);
 	send("PONGEYE_BALL", ball_, ball_.utime);
+}
+
+void Publisher::publish_prediction(const pong_sight &sight)
+{
 	if (!sight.has_prediction)
 		return;
 	prediction_.utime = sight.ball.utime;
@@ -165,7 +169,7 @@ void Publisher::publish(const StatusReport &report)
 	status_.rejected = report.outcomes[PONG_REJECTED];
 	status_.missed_left = report.missed_left;
 	status_.missed_right = report.missed_right;
-	status_.unpaired = report.causes.unpaired;
+	status_.unpaired = report.causes.unpaired + report.causes.miscounted;
 	status_.incomplete = report.causes.incomplete;
 	status_.late = report.causes.late;
 	status_.repeated = report.causes.repeated;

@@ -23,8 +23,9 @@ public:
 	// url: LCM's, or empty for LCM's default. Throws pong::Failure where it cannot be opened.
 	explicit Publisher(const std::string &url);
 
-	// The ball and the prediction, where there are any.
-	void publish(const pong_sight &sight);
+	// Where there is one.
+	void publish_ball(const pong_sight &sight);
+	void publish_prediction(const pong_sight &sight);
 
 	void publish(const StatusReport &report);
 

@@ -70,10 +70,10 @@ pong_profile Replay::profile() const
 	return header_.profile == "paper" ? PONG_PAPER : PONG_BEST;
 }
 
-// Whether an event's message is what its channel says.
+// Whether an event's message is what its channel says. Two pictures that are no pair are alone, too.
 bool Replay::decode_pictures(bool alone)
 {
-	return decode(event_.data, message_) && (alone ? 1 : 2) == pictures_of(message_) &&
+	return decode(event_.data, message_) && pictures_of(message_) >= (alone ? 1 : 2) &&
 	       message_.number >= (alone ? 0 : 1);
 }
 

@@ -67,6 +67,13 @@ void Seat::suspect()
 	wake_.notify_one();
 }
 
+void Seat::doubt_clock()
+{
+	const std::lock_guard<std::mutex> lock(mutex_);
+	if (camera_)
+		camera_->doubt_clock();
+}
+
 CameraState Seat::state() const
 {
 	const std::lock_guard<std::mutex> lock(mutex_);

@@ -36,6 +36,9 @@ public:
 	// A picture of this camera should have come, because the trigger ran: look after it at once.
 	void suspect();
 
+	// Have the camera's clock compared before its next picture is believed.
+	void doubt_clock();
+
 	CameraState state() const;
 
 	// When the last picture came, whole or not, by monotonic_ns(); none where no camera is open.

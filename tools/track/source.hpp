@@ -22,10 +22,11 @@ struct Dropped {
 	int64_t incomplete = 0; // packets were lost on the way
 	int64_t late = 0;       // came while too many were still waiting
 	int64_t repeated = 0;   // the same picture once more: the camera is frozen
+	int64_t miscounted = 0; // of another pulse than its partner, by the cameras' counters
 
 	int64_t total() const
 	{
-		return unpaired + incomplete + late + repeated;
+		return unpaired + incomplete + late + repeated + miscounted;
 	}
 };
 
@@ -49,7 +50,8 @@ struct Pulses {
 	int64_t missed[2] = {0, 0}; // by pong_side
 };
 
-// ALONE: a picture without a partner, which was looked at before that was known; the other side's has no pixels.
+// ALONE: a picture without a partner, which was looked at before that was known; the other side's has no pixels. Or
+// two that are no pair though their times say so.
 enum class Next { PAIR, ALONE, NOTHING_YET, END };
 
 class Source
@@ -57,8 +59,13 @@ class Source
 public:
 	virtual ~Source() = default;
 
-	// Wait for the next pair, but not for ever: where none comes, NOTHING_YET lets the caller do something else.
+	// The next pair; NOTHING_YET where it has not come. By one thread at a time.
 	virtual Next next(StereoPair &pair) = 0;
+
+	// Wait for the next pair, but not for long: then the caller does something else.
+	virtual void wait()
+	{
+	}
 
 	// Whether its pairs come when they come: then whoever looks at them is in a hurry.
 	virtual bool is_live() const

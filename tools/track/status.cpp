@@ -90,6 +90,8 @@ std::string Status::summary(const Source &source) const
 					number(pairs_), number(outcomes_[PONG_SEEN]),
 					number(drops_of(dropped, out_of_order)), number(dropped.unpaired),
 					number(dropped.incomplete), number(dropped.late), number(out_of_order));
+	if (dropped.miscounted > 0)
+		text += pong::format("; %lld of two pulses, by the cameras' counters", number(dropped.miscounted));
 	if (dropped.repeated > 0)
 		text += pong::format("; %lld of a frozen camera", number(dropped.repeated));
 	const int64_t losses[] = {source.health(PONG_LEFT).losses, source.health(PONG_RIGHT).losses};

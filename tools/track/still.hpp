@@ -21,22 +21,29 @@ public:
 
 	// Whether this picture is the one before, to the last bit. Every fourth row is looked at, which no ball that is
 	// large enough to be found lies between; pictures that differ do so in the first few pixels.
-	bool is_repeated(const pong_image &image)
+	bool is_repeated(const pong_image &image) const
 	{
 		bool same = has_before_;
-		for (size_t row = 0; row < rows_; row++) {
-			const uint8_t *now = image.pixels + static_cast<int>(row) * ROWS * image.stride;
-			uint8_t *before = &before_[row * width_];
-			same = same && memcmp(now, before, width_) == 0;
-			if (!same)
-				memcpy(before, now, width_);
-		}
-		has_before_ = true;
+		for (size_t row = 0; same && row < rows_; row++)
+			same = memcmp(row_of(image, row), &before_[row * width_], width_) == 0;
 		return same;
+	}
+
+	// This picture is the one before, from now on.
+	void remember(const pong_image &image)
+	{
+		for (size_t row = 0; row < rows_; row++)
+			memcpy(&before_[row * width_], row_of(image, row), width_);
+		has_before_ = true;
 	}
 
 private:
 	static constexpr int ROWS = 4;
+
+	static const uint8_t *row_of(const pong_image &image, size_t row)
+	{
+		return image.pixels + static_cast<int>(row) * ROWS * image.stride;
+	}
 
 	size_t width_, rows_;
 	std::vector<uint8_t> before_;

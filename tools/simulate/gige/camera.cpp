@@ -266,9 +266,12 @@ const Frame &Camera::compose(const Shot &shot, const Acquisition &acquisition)
 	crop(acquisition.region);
 	if (acquisition.gain > 0)
 		brighten(frame_.data, acquisition.gain);
-	if (frame_.has_chunks)
+	if (frame_.has_chunks) {
+		const int64_t count = (shot.is_by_line ? shot.pulse : line_.count()) +
+				      (faults_.find(FaultKind::miscount, shot.pulse) ? 1 : 0);
 		append_chunks(frame_, {static_cast<float>(acquisition.exposure * 1e6), shot.is_by_line ? 1u : 0u,
-				       static_cast<uint32_t>(shot.is_by_line ? shot.pulse : line_.count())});
+				       static_cast<uint32_t>(count)});
+	}
 	if (faults_.strikes(FaultKind::truncate, shot.pulse))
 		frame_.data.resize(frame_.data.size() / 2);
 	return ring_.add(frame_);

@@ -29,6 +29,7 @@ Control::Control(const ControlSettings &settings, const FrameRing &ring)
 {
 	set_identity(registers_, settings_);
 	set_defaults(registers_, settings_);
+	registers_.set(at::ptp_status, ptp_disabled);
 	registers_.set(at::payload_size, static_cast<uint32_t>(payload_size(region(), false)));
 }
 
@@ -213,6 +214,9 @@ void Control::take_effect(uint32_t address, uint32_t value, const Writing &writi
 		break;
 	case at::acquisition_stop:
 		stop();
+		break;
+	case at::ptp_enable: // its clock is the host's anyway, but for what a fault adds
+		registers_.set(at::ptp_status, value ? ptp_slave : ptp_disabled);
 		break;
 	case at::trigger_software:
 		software_triggers_++;

@@ -21,6 +21,7 @@ enum class FaultKind {
 	drift,    // its clock runs too fast by so many parts in a million; from power-on
 	held,     // a client that was killed has left its control behind; at power-on
 	block,    // its first picture has this frame id; from power-on
+	miscount, // it has counted a pulse too many
 };
 
 struct Fault {

@@ -51,6 +51,13 @@ Register choice(const char *category, const char *name, uint32_t address, std::v
 		std::move(entries)};
 }
 
+Register state(const char *category, const char *name, uint32_t address, std::vector<Entry> entries)
+{
+	Register state = choice(category, name, address, std::move(entries));
+	state.access = Access::read;
+	return state;
+}
+
 Register command(const char *category, const char *name, uint32_t address, uint32_t value = 1)
 {
 	return {category, name, Kind::command, address, 4, Access::write, 0, static_cast<double>(value)};
@@ -80,6 +87,8 @@ std::vector<Register> register_table(int sensor_width, int sensor_height)
 		text("DeviceSerialNumber", at::serial_number, 16),
 		command(device, "TimestampLatch", at::timestamp_control, latch_timestamp),
 		reading(device, "TimestampLatchValue", at::latched_timestamp, 8),
+		boolean(device, "PtpEnable", at::ptp_enable, When::always),
+		state(device, "PtpStatus", at::ptp_status, {{"Disabled", ptp_disabled}, {"Slave", ptp_slave}}),
 
 		reading(image, "SensorWidth", at::sensor_width),
 		reading(image, "SensorHeight", at::sensor_height),

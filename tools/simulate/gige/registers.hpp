@@ -66,6 +66,8 @@ enum Address : uint32_t {
 	gain = 0xa150,          // dB
 	chunk_mode = 0xa160,
 	payload_size = 0xa170,
+	ptp_enable = 0xa180,
+	ptp_status = 0xa184,
 
 	description = 0x10000,
 };
@@ -76,7 +78,8 @@ constexpr uint32_t exclusive_privilege = 1, control_privilege = 2; // control_pr
 constexpr uint32_t fire_test_packet_now = 0x80000000;              // stream_packet_size
 constexpr uint32_t latch_timestamp = 2;                            // timestamp_control
 constexpr uint32_t mode_continuous = 0, mode_single_frame = 1;     // acquisition_mode
-constexpr uint32_t source_software = 0, source_line1 = 1;          // trigger_source
+constexpr uint32_t ptp_disabled = 4, ptp_slave = 9;       // ptp_status: any numbers, the description names them
+constexpr uint32_t source_software = 0, source_line1 = 1; // trigger_source
 
 enum class Kind { integer, real, boolean, enumeration, command, text };
 enum class Access { read, write };               // write: and read
