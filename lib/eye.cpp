@@ -178,6 +178,9 @@ void expect(pong_eye &eye)
 		there.streaked =
 			eye.expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
 						     eye.settings.locate.exposure, there.streak);
+		there.seen_once = pong_track_count(eye.track.get()) == 1;
+		there.seconds = static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
+		std::copy_n(eye.last.position, 3, there.position);
 		windowed = windowed &&
 			   window_around(eye.rig, static_cast<pong_side>(side), expected, eye.settings, &there.window);
 	}

@@ -24,6 +24,8 @@ bool locate(const LocateTask &task, pong_locate_method method, pong_centre *cent
 	return false;
 }
 
+const double farthest = 6; // diameters that a ball moves from one pair to the next
+
 } // namespace
 
 } // namespace pong
@@ -59,5 +61,20 @@ int pong_streak(const pong_camera *camera, const double position[3], const doubl
 	const double one = 1; // m; the ratio does not depend on it
 	const double size = pong_apparent_size(camera, position, one);
 	streak[2] = (pong_apparent_size(camera, end, one) - pong_apparent_size(camera, begin, one)) / size;
+	return PONG_FOUND;
+}
+
+int pong_streak_since(const pong_camera *camera, const double position[3], double seconds, const pong_detection *now,
+		      double exposure, double streak[3])
+{
+	double before[2];
+	if (!(seconds > 0) || !pong_project(camera, position, before))
+		return PONG_NONE;
+	const double moved[2] = {now->u - before[0], now->v - before[1]};
+	if (!(std::hypot(moved[0], moved[1]) <= pong::farthest * now->size))
+		return PONG_NONE;
+	for (int axis = 0; axis < 2; axis++)
+		streak[axis] = moved[axis] * exposure / seconds;
+	streak[2] = 0;
 	return PONG_FOUND;
 }

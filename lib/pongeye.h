@@ -442,6 +442,11 @@ PONG_API int pong_locate(const pong_camera *camera, const pong_pictures *picture
 PONG_API int pong_streak(const pong_camera *camera, const double position[3], const double velocity[3], double exposure,
 			 double streak[3]);
 
+/* The same of a ball that was seen but once before, at a position (m) so many seconds ago, and is detected now; its
+ * size is taken as constant. Returns PONG_FOUND, or PONG_NONE where no ball moves as far. */
+PONG_API int pong_streak_since(const pong_camera *camera, const double position[3], double seconds,
+			       const pong_detection *now, double exposure, double streak[3]);
+
 /* --------------------------------------------------------------------------------------------------------------
  * Reconstruct: from two centres to a point in the table frame (paper, section 5 and appendix)
  */

@@ -114,14 +114,24 @@ void Side::locate_all()
 	count_ = kept;
 }
 
+bool Side::streak_of(const pong_detection &found, double streak[3]) const
+{
+	if (expected_.streaked)
+		std::copy_n(expected_.streak, 3, streak);
+	return expected_.streaked ||
+	       (expected_.seen_once && pong_streak_since(&camera_, expected_.position, expected_.seconds, &found,
+							 settings_.locate.exposure, streak));
+}
+
 // The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the
 // detection's own centre stands.
 bool Side::locate(const pong_detection &found, bool before_moved, pong_centre *centre) const
 {
 	const pong_pictures pictures = before_moved ? moved_around(found) : compared();
+	double streak[3];
 	if (settings_.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
-		return pong_locate(&camera_, &pictures, &found, expected_.streaked ? expected_.streak : nullptr,
-				   &settings_, centre);
+		return pong_locate(&camera_, &pictures, &found, streak_of(found, streak) ? streak : nullptr, &settings_,
+				   centre);
 	const double variance = std::pow(faint_error * found.size / 2, 2);
 	*centre = {};
 	centre->u = found.u;

@@ -22,6 +22,8 @@ struct Expectation {
 	bool windowed, streaked; // whether what follows is known
 	pong_window window;
 	double streak[3];
+	bool seen_once; // before: there, so many seconds ago
+	double position[3], seconds;
 };
 
 class Side
@@ -68,6 +70,7 @@ private:
 	void locate_all();
 	void add_moved();
 	bool locate(const pong_detection &found, bool before_moved, pong_centre *centre) const;
+	bool streak_of(const pong_detection &found, double streak[3]) const;
 	pong_pictures compared() const;
 	pong_pictures moved_around(const pong_detection &found) const;
 

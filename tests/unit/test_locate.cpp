@@ -238,4 +238,25 @@ TEST(Streak, IsTheWayOfThePicture)
 	EXPECT_NEAR(streak[2], 0.020 / (1.5 + 0.4), 1e-3); // it comes 20 mm nearer, 1.9 m before the camera
 }
 
+// A ball that flies across: what it moved since it was seen tells the same as its velocity.
+TEST(Streak, OfABallThatWasSeenOnce)
+{
+	const pong_rig rig = test_rig();
+	const pong_camera &camera = rig.camera[PONG_LEFT];
+	const double before[3] = {0.1, 0.2, 1.5}, velocity[3] = {6, 2, 0}, seconds = 0.009;
+	double now[3], uv[2], expected[3], streak[3];
+	for (int axis = 0; axis < 3; axis++)
+		now[axis] = before[axis] + seconds * velocity[axis];
+	ASSERT_TRUE(pong_project(&camera, now, uv));
+	const pong_detection found = {uv[0], uv[1], pong_apparent_size(&camera, now, rig.ball.diameter), 60};
+	ASSERT_EQ(pong_streak(&camera, now, velocity, 0.002, expected), PONG_FOUND);
+	ASSERT_EQ(pong_streak_since(&camera, before, seconds, &found, 0.002, streak), PONG_FOUND);
+	EXPECT_NEAR(streak[0], expected[0], 0.05);
+	EXPECT_NEAR(streak[1], expected[1], 0.05);
+	EXPECT_EQ(pong_streak_since(&camera, before, 0, &found, 0.002, streak), PONG_NONE);
+	pong_detection another = found;
+	another.u += 20 * found.size;
+	EXPECT_EQ(pong_streak_since(&camera, before, seconds, &another, 0.002, streak), PONG_NONE);
+}
+
 } // namespace

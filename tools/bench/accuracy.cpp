@@ -184,9 +184,11 @@ public:
 	}
 
 	// False where too little was seen to know.
-	bool expect(double time, double streak[2][3]) const
+	bool expect(double time, const pong_detection detections[2], double streak[2][3]) const
 	{
 		pong_state recent, now;
+		if (pong_track_count(track_) == 1)
+			return expect_since(time, detections, streak);
 		if (!pong_track_recent_state(track_, &recent) ||
 		    !pong_predict_at(&rig_, &recent, utime_of(time), &settings_, &now))
 			return false;
@@ -199,7 +201,7 @@ public:
 	void add(const Shot &shot, const pong_detection detections[2])
 	{
 		double streak[2][3];
-		const bool known = expect(shot.time, streak);
+		const bool known = expect(shot.time, detections, streak);
 		pong_centre centre[2];
 		for (int side = 0; side < 2; side++) {
 			const pong_pictures pictures = shot.pictures(static_cast<pong_side>(side));
@@ -212,9 +214,20 @@ public:
 			return;
 		point.utime = utime_of(shot.time);
 		pong_track_push(track_, &point);
+		last_ = point;
 	}
 
 private:
+	bool expect_since(double time, const pong_detection detections[2], double streak[2][3]) const
+	{
+		const double seconds = static_cast<double>(utime_of(time) - last_.utime) * 1e-6;
+		for (int side = 0; side < 2; side++)
+			if (!pong_streak_since(&rig_.camera[side], last_.position, seconds, &detections[side],
+					       exposure_, streak[side]))
+				return false;
+		return true;
+	}
+
 	static int64_t utime_of(double time)
 	{
 		return 1000000 + std::llround(1e6 * time);
@@ -224,6 +237,7 @@ private:
 	double exposure_;
 	pong_settings settings_;
 	pong_track *track_;
+	pong_point last_ = {};
 };
 
 const int shots_before = 5;
@@ -251,7 +265,7 @@ void measure_place(Studio &studio, const pong_rig &rig, const std::vector<Shot> 
 	}
 	detect_roughly(shots.back(), studio.rig(), random, detections);
 	double streak[2][3];
-	if (!follower.expect(shots.back().time, streak))
+	if (!follower.expect(shots.back().time, detections, streak))
 		std::fill_n(&streak[0][0], 6, 0.0);
 	Trial trial(rig, shots.back(), detections, streak);
 	for (size_t i = 0; i < std::size(methods); i++)
