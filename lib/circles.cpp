@@ -26,10 +26,20 @@ const double grid = 0.3;           // from one place to the next, radii
 const size_t passed_capacity = 12; // circles that pass the first test, the strongest
 const size_t refined_most = 3;     // and the second
 const double shown_first = 0.6;    // of the outline, before that
-const double step_needed = 8;      // and its step, standard deviations of a pixel
 const double radius_least = 3;     // px; smaller circles are everywhere
 const int refinements = 6;
 const double near_radii = 0.7; // circles with centres nearer than this are one
+
+// How much of a circle must show.
+struct Needed {
+	double shown; // of its outline
+	double step;  // standard deviations of a pixel
+};
+
+// Anywhere, a hand's outline must not pass. Right where a ball is expected, its shaded side may be as dark as what is
+// behind it.
+const Needed needed_anywhere = {0.85, 8}, needed_in_window = {0.75, 8}, needed_there = {0.55, 5};
+const double narrow = 4; // a window less than so many balls wide tells where in it the ball is
 
 // Where the levels inside and outside of a circle of one size are read, as offsets into the picture.
 struct Probe {
@@ -80,21 +90,20 @@ struct Circle {
 class CircleSearch
 {
 public:
-	CircleSearch(const pong_image &image, const BallLimits &limits, double noise, double shown_needed)
-		: image_(image), limits_(limits), noise_(noise), shown_needed_(shown_needed)
+	CircleSearch(const pong_image &image, const CircleSought &sought) : image_(image), sought_(sought)
 	{
 	}
 
 	Circle measured(double u, double v, double radius) const
 	{
-		const double allowed = std::clamp(radius, limits_.size_min / 2, limits_.size_max / 2);
-		return {u, v, allowed, 0, measure_outline(image_, u, v, allowed, noise_)};
+		const BallLimits &limits = sought_.limits;
+		const double allowed = std::clamp(radius, limits.size_min / 2, limits.size_max / 2);
+		return {u, v, allowed, 0, measure_outline(image_, u, v, allowed, sought_.noise)};
 	}
 
 	// Step by step to the neighbour with the strongest outline, by ever smaller steps.
-	Circle refined(Circle circle) const
+	Circle refined(Circle circle, double step) const
 	{
-		double step = grid * circle.radius;
 		for (int i = 0; i < refinements; i++) {
 			const Circle neighbours[] = {measured(circle.u - step, circle.v, circle.radius),
 						     measured(circle.u + step, circle.v, circle.radius),
@@ -113,15 +122,14 @@ public:
 		return circle;
 	}
 
-	bool is_ball(const Circle &circle) const
+	bool is_ball(const Circle &circle, const Needed &needed) const
 	{
-		return circle.outline.shown >= shown_needed_ && circle.outline.step >= step_needed * noise_;
+		return circle.outline.shown >= needed.shown && circle.outline.step >= needed.step * sought_.noise;
 	}
 
 private:
 	const pong_image &image_;
-	const BallLimits &limits_;
-	double noise_, shown_needed_;
+	const CircleSought &sought_;
 };
 
 // Whether what is around the centre is new: most of five points inside of the circle.
@@ -177,17 +185,12 @@ private:
 	size_t count_ = 0;
 };
 
-bool is_known(const Circle &circle, const pong_detection *found, int count)
-{
-	return std::any_of(found, found + count, [&](const pong_detection &ball) {
-		return std::hypot(ball.u - circle.u, ball.v - circle.v) < std::max(ball.size / 2, circle.radius);
-	});
-}
-
 // All circles of one size.
-void probe_circles(const pong_image &image, const Patch &patch, const Area &area, double radius, int step, int level,
-		   Passed *passed)
+void probe_circles(const pong_image &image, const Patch &patch, const Area &area, double radius,
+		   const CircleSought &sought, Passed *passed)
 {
+	const int level = static_cast<int>(patch_one * lit_level(0, sought.limits));
+	const int step = static_cast<int>(std::ceil(step_noise * sought.noise));
 	const Probe probe(radius, image.stride);
 	const int every = std::max(grid_least, static_cast<int>(grid * radius)), half = static_cast<int>(radius / 2);
 	const Area inside =
@@ -200,19 +203,45 @@ void probe_circles(const pong_image &image, const Patch &patch, const Area &area
 		}
 }
 
+// Collects the circles that are balls.
+struct Found {
+	pong_detection *found;
+	int count, capacity;
+
+	void add(const Circle &circle)
+	{
+		const pong_detection ball = {circle.u, circle.v, 2 * circle.radius, circle.outline.step};
+		if (!is_known(ball, found, count))
+			count = insert_detection(ball, found, count, capacity);
+	}
+};
+
+// The circle right where a ball is expected, whatever else is seen around.
+void try_expected(const CircleSearch &search, const pong_window &window, Found *found)
+{
+	const Circle expected = search.measured(window.u + window.width / 2.0, window.v + window.height / 2.0,
+						(window.size_min + window.size_max) / 4);
+	const Circle fine = search.refined(expected, grid / 2 * expected.radius);
+	if (search.is_ball(fine, needed_there))
+		found->add(fine);
+}
+
 } // namespace
 
-int find_circles(const pong_image &image, const Patch &patch, const Area &area, const BallLimits &limits, double noise,
-		 double shown_needed, pong_detection *found, int count, int capacity)
+int find_circles(const pong_image &image, const Patch &patch, const Area &area, const CircleSought &sought,
+		 pong_detection *found, int count, int capacity)
 {
-	const CircleSearch search(image, limits, noise, shown_needed);
-	const int level = static_cast<int>(patch_one * lit_level(0, limits));
-	const int step = static_cast<int>(std::ceil(step_noise * noise));
+	const CircleSearch search(image, sought);
+	const BallLimits &limits = sought.limits;
+	const pong_window *window = sought.window;
+	Found balls = {found, count, capacity};
+	if (window && window->width < narrow * window->size_max)
+		try_expected(search, *window, &balls);
 	const int extent = std::max(area.u_end - area.u_begin, area.v_end - area.v_begin);
 	const double radius_most = std::min(limits.size_max / 2, 0.6 * extent);
 	Passed passed;
 	for (double radius = std::max(limits.size_min / 2, radius_least); radius <= radius_most; radius *= size_step)
-		probe_circles(image, patch, area, radius, step, level, &passed);
+		probe_circles(image, patch, area, radius, sought, &passed);
 	for (Circle &circle : passed)
 		circle.outline = search.measured(circle.u, circle.v, circle.radius).outline;
 	std::sort(passed.begin(), passed.end(), [](const Circle &a, const Circle &b) { return a.score() > b.score(); });
@@ -220,12 +249,11 @@ int find_circles(const pong_image &image, const Patch &patch, const Area &area, 
 	for (const Circle *circle = passed.begin(); circle != last; circle++) {
 		if (circle->outline.shown < shown_first)
 			continue;
-		const Circle fine = search.refined(*circle);
-		if (search.is_ball(fine) && !is_known(fine, found, count))
-			count = insert_detection({fine.u, fine.v, 2 * fine.radius, fine.outline.step}, found, count,
-						 capacity);
+		const Circle fine = search.refined(*circle, grid * circle->radius);
+		if (search.is_ball(fine, window ? needed_in_window : needed_anywhere))
+			balls.add(fine);
 	}
-	return count;
+	return balls.count;
 }
 
 } // namespace pong

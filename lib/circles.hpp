@@ -7,10 +7,16 @@
 namespace pong
 {
 
+// What is searched for.
+struct CircleSought {
+	BallLimits limits;
+	double noise;              // standard deviation of a pixel, grey levels
+	const pong_window *window; // where a ball is expected: less of it need show there; or null
+};
+
 // Search the area, which lies inside of the patch, for circles of the sizes allowed around pixels that are lit. Puts
-// them among found[count], as insert_detection does; returns the new count. `noise` is the standard deviation of a
-// pixel, grey levels; `shown_needed` the part of the outline that must show.
-int find_circles(const pong_image &image, const Patch &patch, const Area &area, const BallLimits &limits, double noise,
-		 double shown_needed, pong_detection *found, int count, int capacity);
+// them among found[count], as insert_detection does; returns the new count.
+int find_circles(const pong_image &image, const Patch &patch, const Area &area, const CircleSought &sought,
+		 pong_detection *found, int count, int capacity);
 
 } // namespace pong

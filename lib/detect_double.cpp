@@ -36,8 +36,6 @@ const int cells_together = 8;                 // so many are as quickly summed a
 const int close_margin = 6;                   // a group is looked at with so many pixels around, px
 const double close_noise = 1.5;               // the noise of a patch's 3 x 3 mean, over that of a cell's
 const double larger = 0.8;                    // groups of this part of the smallest ball may hold one
-const double shown_anywhere = 0.85;           // of a ball's outline, where something else moves around it,
-const double shown_in_window = 0.75;          // and where one is expected there
 const double fresh_noise = 4;                 // what is fresh differs by so many standard deviations of a pixel,
 const double fresh_least = 6;                 // and by so many grey levels
 const double fresh_seen = 12;                 // fainter groups are not seen to be fresh, grey levels
@@ -392,13 +390,14 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	patch_.fill(pictures, conditions.gains, around);
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
-		return in_region(ball) ? insert_detection(ball, found, count, capacity) : count;
+		return in_region(ball) && !is_known(ball, found, count) ? insert_detection(ball, found, count, capacity)
+									: count;
 	cluttered_ |= group.cells >= clutter_cells;
 	const bool left_to_fresh = previous_ && !window && group.contrast() >= fresh_seen && extent > fresh_extent;
 	if (extent < larger * limits.size_min || left_to_fresh)
 		return count;
-	return find_circles(pictures.current, patch_, area, limits, pixel_noise * conditions.noise,
-			    window ? shown_in_window : shown_anywhere, found, count, capacity);
+	return find_circles(pictures.current, patch_, area, {limits, pixel_noise * conditions.noise, window}, found,
+			    count, capacity);
 }
 
 // Search what is fresh since the previous picture for circles. Takes the place of looking for them in all that is new,
@@ -432,8 +431,7 @@ int DoubleDifference::look_at_fresh(const pong_pictures &pictures, const Conditi
 		if (measure_blob(patch_, area, group.contrast(), limits, &ball) && in_region(ball))
 			count = insert_detection(ball, found, count, capacity);
 		patch_.fill(latest, since.gains, around);
-		count = find_circles(pictures.current, patch_, area, limits, noise, shown_anywhere, found, count,
-				     capacity);
+		count = find_circles(pictures.current, patch_, area, {limits, noise, nullptr}, found, count, capacity);
 	}
 	return count;
 }

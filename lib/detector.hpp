@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "pongeye.h"
@@ -68,6 +69,14 @@ inline Area searched_area(int width, int height, const pong_window *window)
 	if (!window)
 		return picture;
 	return intersect(picture, {window->u, window->u + window->width, window->v, window->v + window->height});
+}
+
+// Whether one of found[count] lies where this one does.
+inline bool is_known(const pong_detection &ball, const pong_detection *found, int count)
+{
+	return std::any_of(found, found + count, [&](const pong_detection &other) {
+		return std::hypot(other.u - ball.u, other.v - ball.v) < std::max(other.size, ball.size) / 2;
+	});
 }
 
 // Puts a detection among found[count], best contrast first, or in the place of a worse one. Returns the new count.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "description_mutex.hpp"
 #include "presence.hpp"
 #include "realtime.hpp"
 
@@ -105,7 +106,10 @@ Camera::~Camera()
 void Camera::open(const char *id)
 {
 	Fault fault;
-	camera_.reset(arv_camera_new(id, fault));
+	{
+		const std::lock_guard<std::mutex> lock(description_mutex());
+		camera_.reset(arv_camera_new(id, fault));
+	}
 	if (!camera_)
 		throw Absent(
 			name_ + ": not found: no GigE Vision camera on any network interface and no USB3 Vision " +

@@ -124,7 +124,6 @@ private:
 	int width_, height_;
 	Receive receive_;
 	Object<ArvCamera> camera_;
-	Object<ArvStream> stream_;
 	int64_t exposure_ns_ = 0;
 	bool has_clock_ = false;
 	std::mutex clock_mutex_;
@@ -139,6 +138,7 @@ private:
 	Punctuality punctuality_;
 	CaptureCounts &counts_;
 	std::unique_ptr<Ticker> clock_reader_;
+	Object<ArvStream> stream_; // ends before all the rest, which its thread uses
 };
 
 // "left camera 192.168.1.10"

@@ -1,5 +1,7 @@
 #include "pulse_counter.hpp"
 
+#include "description_mutex.hpp"
+
 namespace track
 {
 
@@ -48,9 +50,11 @@ bool send_count(ArvCamera *camera)
 
 void PulseCounter::open(ArvCamera *camera, const std::string &line, bool falling_edge)
 {
-	if (has(camera, "ChunkModeActive") && has(camera, "ChunkCounterValue") &&
-	    count_line(camera, line, falling_edge) && send_count(camera))
-		parser_.reset(arv_camera_create_chunk_parser(camera));
+	if (!has(camera, "ChunkModeActive") || !has(camera, "ChunkCounterValue") ||
+	    !count_line(camera, line, falling_edge) || !send_count(camera))
+		return;
+	const std::lock_guard<std::mutex> lock(description_mutex());
+	parser_.reset(arv_camera_create_chunk_parser(camera));
 }
 
 std::optional<int64_t> PulseCounter::read(ArvBuffer *picture) const
