@@ -114,11 +114,13 @@ $(HIL)/libgpiod2/pkgconfig/libgpiod.pc: tests/hil/get-libgpiod2
 	tests/hil/get-libgpiod2 $(HIL)/libgpiod2
 
 $(HIL)/pongeye-trigger-gpiod1: $(BUILD)/bin/pongeye-trigger
+	@mkdir -p $(@D)
 	cp $< $@
 
 # Where the machine has libgpiod 1, the same sources once more against 2.
 $(HIL)/pongeye-trigger-gpiod2: $(BUILD)/bin/pongeye-trigger \
     $$(if $$(filter 1,$$(GPIOD_VERSION)),$(HIL)/libgpiod2/pkgconfig/libgpiod.pc)
+	@mkdir -p $(@D)
 	$(if $(filter 2,$(GPIOD_VERSION)),cp $< $@,$(call with_libgpiod2,$@))
 
 define with_libgpiod2
