@@ -16,6 +16,7 @@ const double settled = 1e-2;         // a step this small, in squared standard d
 const double outlier = 16;           // squared normalised distance that one in a thousand good points exceeds
 const size_t outlier_points = 6;     // fewer points cannot tell which of them is wrong
 const double least_variance = 1e-18; // of what is certain
+const double sure = 1e-5;            // m/s; a push along the table whose scatter is less is known
 const double position_sigma = 10;    // m: none that matters
 const Vector3 usual_velocity(0, 0.5, -6), velocity_sigma(3, 3, 6); // m/s, of play in ball-states
 
@@ -102,7 +103,7 @@ void Estimate::find_noise(const pong_point &point)
 Estimate::Quadratic Estimate::prior_at(const Parameters &parameters) const
 {
 	const Parameters gradient = prior_information_ * (prior_mean_ - parameters);
-	return {gradient.dot(prior_mean_ - parameters), gradient, prior_information_};
+	return {gradient.dot(prior_mean_ - parameters), gradient, prior_information_, false};
 }
 
 // The cost of the first samples about some parameters, with their covariance that of the mean of all flights they may
@@ -127,6 +128,7 @@ Estimate::Quadratic Estimate::linearise(const Parameters &parameters, size_t sam
 		quadratic.gradient.noalias() += weighted.transpose() * residual;
 		quadratic.information.noalias() += rates.transpose().lazyProduct(weighted);
 	}
+	quadratic.blurred = trajectory.scatter().trace() > sure * sure;
 	return quadratic;
 }
 
@@ -139,9 +141,8 @@ void Estimate::improve()
 	double least = std::numeric_limits<double>::infinity();
 	const int steps = count_ <= begin_points ? begin_steps : steady_steps;
 	for (int i = 0; i < steps; i++) {
-		const bool first = i == 0;
-		quadratic_ = linearise(parameters_, count_, first ? &covariance_ : nullptr);
-		if (!first && quadratic_.cost < least) {
+		quadratic_ = linearise(parameters_, count_, i == 0 ? &covariance_ : nullptr);
+		if (!quadratic_.blurred && quadratic_.cost < least) {
 			least = quadratic_.cost;
 			best = parameters_;
 		}
@@ -151,7 +152,7 @@ void Estimate::improve()
 			break;
 		parameters_ += step;
 		quadratic_.gradient.setZero();
-		if (!first && length < settled)
+		if (!quadratic_.blurred && length < settled)
 			return;
 	}
 	if (!(linearise(parameters_, count_, nullptr).cost < least))
@@ -169,16 +170,15 @@ void Estimate::renew_kick(Parameters &parameters, ParameterMatrix &covariance) c
 	}
 }
 
-// The full state at a time, of a quadratic about the present parameters.
-Estimate::Belief Estimate::belief_at(double time, const Quadratic &quadratic, int *bounces) const
+// The full state at a time, where the parameters are the present ones and a step, with this covariance.
+Estimate::Belief Estimate::belief_at(double time, const Parameters &step, const ParameterMatrix &covariance,
+				     int *bounces) const
 {
 	Trajectory trajectory(physics_, rig_.table, parameters_);
 	while (time > trajectory.end().time)
 		trajectory.advance(time);
 	*bounces = trajectory.bounces();
 	const Motion &motion = trajectory.end();
-	const ParameterMatrix covariance = quadratic.information.llt().solve(ParameterMatrix::Identity());
-	const Parameters step = covariance * quadratic.gradient;
 	Belief belief = {parameters_ + step, carry(covariance, motion)};
 	belief.mean.segment<3>(PONG_STATE_POSITION) = motion.position + motion.position_rates * step;
 	belief.mean.segment<3>(PONG_STATE_VELOCITY) = motion.velocity + motion.velocity_rates * step;
@@ -190,8 +190,8 @@ void Estimate::find_state()
 {
 	const double time = samples_[count_ - 1].time;
 	int bounces;
-	Belief now = belief_at(time, quadratic_, &bounces);
 	covariance_ = quadratic_.information.llt().solve(ParameterMatrix::Identity());
+	Belief now = belief_at(time, covariance_ * quadratic_.gradient, covariance_, &bounces);
 	if (bounces > 0)
 		renew_kick(now.mean, now.covariance);
 	state_.utime = anchor_ + std::llround(time * 1e6);
@@ -218,10 +218,10 @@ void Estimate::fold()
 	const size_t half = window_ / 2;
 	const double time = samples_[half].time;
 	int bounces;
-	Quadratic older = linearise(parameters_, half, nullptr);
-	Belief then = belief_at(time, older, &bounces);
-	older.gradient.setZero();
-	parameters_ = belief_at(time, older, &bounces).mean;
+	const Quadratic older = linearise(parameters_, half, nullptr);
+	const ParameterMatrix covariance = older.information.llt().solve(ParameterMatrix::Identity());
+	Belief then = belief_at(time, covariance * older.gradient, covariance, &bounces);
+	parameters_ = belief_at(time, Parameters::Zero(), covariance, &bounces).mean;
 	if (bounces > 0) {
 		renew_kick(then.mean, then.covariance);
 		parameters_.tail<2>().setZero();

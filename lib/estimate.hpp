@@ -38,6 +38,7 @@ private:
 		double cost;
 		Parameters gradient;
 		ParameterMatrix information;
+		bool blurred; // by a bounce that may slide or roll: the cost is no flight's own
 	};
 
 	struct Belief {
@@ -54,7 +55,7 @@ private:
 	void fold();
 	void move_anchor(double time, size_t first);
 	void renew_kick(Parameters &parameters, ParameterMatrix &covariance) const;
-	Belief belief_at(double time, const Quadratic &quadratic, int *bounces) const;
+	Belief belief_at(double time, const Parameters &step, const ParameterMatrix &covariance, int *bounces) const;
 
 	pong_rig rig_;
 	Physics physics_;
