@@ -6,6 +6,7 @@
 
 #include "clones.hpp"
 #include "conditions.hpp"
+#include "picture_ring.hpp"
 
 namespace pong
 {
@@ -71,9 +72,9 @@ double difference(const pong_image &previous, const Disc &disc, int du, int dv, 
 	return 2 * count >= disc.count ? std::min(most, static_cast<double>(sum) / count) : most;
 }
 
-const int motion = 4;         // px, to all sides
-const int rows_compared = 24; // of an area
-const int unlike = 40;        // more does not count, grey levels: a ball is not to be followed
+const int motion = PictureRing::margin; // px, to all sides
+const int rows_compared = 24;           // of an area
+const int unlike = 40;                  // more does not count, grey levels: a ball is not to be followed
 
 } // namespace
 

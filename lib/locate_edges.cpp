@@ -87,6 +87,15 @@ bool inside_picture(const pong_image &image, const Vector2 &at)
 	return at.x() >= 0 && at.y() >= 0 && at.x() < image.width - 1 && at.y() < image.height - 1;
 }
 
+// The ends tell: a picture is convex. The circle's own centre may lie beside it.
+bool inside_picture(const pong_image &image, const Circle &circle, const Vector2 &direction, const Profile &profile)
+{
+	const auto place = [&](int i) -> Vector2 {
+		return circle.centre + static_cast<double>(profile.at(i)) * direction;
+	};
+	return inside_picture(image, place(0)) && inside_picture(image, place(profile.count));
+}
+
 // Take the background from the earlier picture that looks most like now outside of the ball; where neither does, what
 // is seen outside just now continues inwards.
 void fill_background(const pong_pictures &pictures, Profile &profile)
@@ -156,9 +165,7 @@ EdgePoint find_edge(const LocateTask &task, const Circle &circle, const Vector2 
 	profile.watched = static_cast<int>(beyond / circle.step);
 	profile.count = static_cast<int>((static_cast<float>(circle.radius + blur) - profile.begin) / circle.step) + 1 +
 			profile.watched;
-	if (profile.count > samples_max ||
-	    !inside_picture(task.pictures.current,
-			    circle.centre + static_cast<double>(profile.at(profile.count)) * direction))
+	if (profile.count > samples_max || !inside_picture(task.pictures.current, circle, direction, profile))
 		return none;
 	lay_out(circle, direction, profile);
 	sample(task.pictures.current, profile, 0, profile.now);

@@ -15,9 +15,12 @@ namespace pong
 class PictureRing
 {
 public:
+	static const int margin = 4; // px: a kept picture may be looked at as if it had moved so far, its border too
+
 	PictureRing(int width, int height, int length)
-		: width_(width), height_(height),
-		  pixels_(static_cast<size_t>(length), std::vector<uint8_t>(static_cast<size_t>(width) * height))
+		: width_(width), height_(height), before_(static_cast<size_t>(margin) * width + margin),
+		  pixels_(static_cast<size_t>(length),
+			  std::vector<uint8_t>(static_cast<size_t>(width) * height + 2 * before_))
 	{
 	}
 
@@ -60,14 +63,15 @@ public:
 private:
 	const uint8_t *pixels_of(size_t number) const
 	{
-		return pixels_[number % pixels_.size()].data();
+		return pixels_[number % pixels_.size()].data() + before_;
 	}
 	uint8_t *pixels_of(size_t number)
 	{
-		return pixels_[number % pixels_.size()].data();
+		return pixels_[number % pixels_.size()].data() + before_;
 	}
 
 	int width_, height_;
+	size_t before_; // pixels, and as many behind
 	std::vector<std::vector<uint8_t>> pixels_;
 	size_t kept_ = 0;
 	pong_image newest_ = {}; // not kept yet

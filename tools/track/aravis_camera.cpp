@@ -99,6 +99,7 @@ Camera::~Camera()
 {
 	clock_reader_.reset();
 	g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), &lost_);
+	const std::lock_guard<std::mutex> lock(features_mutex_);
 	if (!lost_)
 		arv_camera_stop_acquisition(camera_.get(), nullptr);
 }
@@ -243,6 +244,20 @@ void Camera::find_clock()
 				  "less the exposure");
 }
 
+// One thread's latch is not another one's value. None where the camera does not answer.
+std::optional<ClockReading> Camera::latch_clock()
+{
+	const std::lock_guard<std::mutex> lock(features_mutex_);
+	Fault fault;
+	ClockReading reading;
+	reading.before_ns = unix_ns();
+	arv_camera_execute_command(camera_.get(), "TimestampLatch", fault);
+	reading.after_ns = unix_ns();
+	if (!fault.failed())
+		reading.device_ns = arv_camera_get_integer(camera_.get(), "TimestampLatchValue", fault);
+	return fault.failed() ? std::nullopt : std::optional<ClockReading>(reading);
+}
+
 // The fastest of several round trips says most about when the latch happened.
 void Camera::read_clock(int tries)
 {
@@ -250,17 +265,11 @@ void Camera::read_clock(int tries)
 		return;
 	ClockReading best = {};
 	for (int i = 0; i < tries; i++) {
-		Fault fault;
-		ClockReading reading;
-		reading.before_ns = unix_ns();
-		arv_camera_execute_command(camera_.get(), "TimestampLatch", fault);
-		reading.after_ns = unix_ns();
-		if (!fault.failed())
-			reading.device_ns = arv_camera_get_integer(camera_.get(), "TimestampLatchValue", fault);
-		if (fault.failed())
+		const std::optional<ClockReading> reading = latch_clock();
+		if (!reading)
 			return;
-		if (i == 0 || reading.round_trip_ns() < best.round_trip_ns())
-			best = reading;
+		if (i == 0 || reading->round_trip_ns() < best.round_trip_ns())
+			best = *reading;
 	}
 	const std::lock_guard<std::mutex> lock(clock_mutex_);
 	if (!clock_.add(best)) {
@@ -291,6 +300,7 @@ void Camera::open_stream()
 
 void Camera::start()
 {
+	const std::lock_guard<std::mutex> lock(features_mutex_); // pictures come before this returns
 	Fault fault;
 	last_sign_ns_ = monotonic_ns();
 	arv_camera_start_acquisition(camera_.get(), fault);

@@ -95,6 +95,7 @@ public:
 private:
 	void open(const char *id);
 	void start();
+	std::optional<ClockReading> latch_clock();
 	void read_clock(int tries);
 	// A setting, and between what the camera can have it.
 	struct Wish {
@@ -124,6 +125,7 @@ private:
 	int width_, height_;
 	Receive receive_;
 	Object<ArvCamera> camera_;
+	std::mutex features_mutex_; // to be held by who asks the camera for anything once it sends pictures
 	int64_t exposure_ns_ = 0;
 	bool has_clock_ = false;
 	std::mutex clock_mutex_;
