@@ -59,6 +59,8 @@ Estimate::Estimate(const pong_rig &rig, double shared_noise) : rig_(rig), physic
 void Estimate::clear()
 {
 	count_ = 0;
+	settled_ = true;
+	has_state_ = false;
 	noise_.clear();
 	prior_mean_ = usual_parameters(rig_);
 	prior_information_ =
@@ -75,6 +77,7 @@ void Estimate::begin(const pong_point &point)
 
 void Estimate::add(const pong_point &point)
 {
+	settle();
 	if (count_ == 0)
 		begin(point);
 	if (count_ == window_)
@@ -85,8 +88,16 @@ void Estimate::add(const pong_point &point)
 			      known ? covariance.inverse().eval() : Matrix3::Zero().eval(), !known};
 	if (!known)
 		find_noise(point);
+	settled_ = false;
+}
+
+void Estimate::settle()
+{
+	if (settled_)
+		return;
 	improve();
 	find_state();
+	settled_ = has_state_ = true;
 }
 
 // A point has the noise of its own time; the first ones have what was found out from a few more.
@@ -205,7 +216,7 @@ void Estimate::find_state()
 
 bool Estimate::state(pong_state *state) const
 {
-	if (count_ == 0)
+	if (!has_state_)
 		return false;
 	*state = state_;
 	return true;
@@ -240,6 +251,17 @@ void Estimate::move_anchor(double time, size_t first)
 	anchor_ += moved;
 	for (size_t i = 0; i < count_; i++)
 		samples_[i].time -= static_cast<double>(moved) * 1e-6;
+}
+
+// Kalman's, of a point that is where the ball is.
+Vector3 velocity_given(const pong_state &predicted, const pong_point &point)
+{
+	const Eigen::Map<const ParameterMatrix> covariance(&predicted.covariance[0][0]);
+	const Matrix3 of_point = Eigen::Map<const Matrix3>(&point.covariance[0][0]);
+	const Matrix3 position = covariance.block<3, 3>(PONG_STATE_POSITION, PONG_STATE_POSITION);
+	const Matrix3 both = covariance.block<3, 3>(PONG_STATE_VELOCITY, PONG_STATE_POSITION);
+	const Vector3 innovation = vector_of(point.position) - vector_of(predicted.position);
+	return vector_of(predicted.velocity) + both * (position + of_point).llt().solve(innovation);
 }
 
 } // namespace pong

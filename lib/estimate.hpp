@@ -23,7 +23,10 @@ public:
 	// Points come in the order of time. One whose covariance is zero has an unknown one.
 	void add(const pong_point &point);
 
-	// The ball at the time of the last point. False while there is no point.
+	// Work out what the last point tells, which takes most of the time. Adding another one does so first.
+	void settle();
+
+	// The ball at the time of the last point that was settled. False while there is none.
 	bool state(pong_state *state) const;
 
 private:
@@ -63,6 +66,8 @@ private:
 	Noise noise_;
 	std::array<Sample, window_> samples_;
 	size_t count_ = 0; // in the window
+	bool settled_ = true;
+	bool has_state_ = false;
 	int64_t anchor_ = 0;
 	Parameters prior_mean_;
 	ParameterMatrix prior_information_;
@@ -71,5 +76,9 @@ private:
 	ParameterMatrix covariance_; // of parameters_, before the new point
 	pong_state state_;
 };
+
+// The velocity that a state's prediction has after a point at its time: the linear step of that estimate, which needs
+// no flight to be fitted. The point's covariance is known.
+Vector3 velocity_given(const pong_state &predicted, const pong_point &point);
 
 } // namespace pong

@@ -9,6 +9,7 @@
 #include "camera.hpp"
 #include "doubt.hpp"
 #include "error.hpp"
+#include "estimate.hpp"
 #include "region.hpp"
 #include "side.hpp"
 #include "track.hpp"
@@ -214,7 +215,18 @@ pong_outcome outcome_without_match(const pong_sight &sight)
 	return left && right ? PONG_MISMATCH : left || right ? PONG_ONE_EYED : PONG_NOTHING;
 }
 
-pong_ball make_ball(const pong_eye &eye, const Match &match)
+// Of the flight, this point included. The fit to all of its points is not waited for where what was expected tells as
+// much.
+Vector3 velocity_of(pong_eye &eye, const Match &match, pong_track_event event)
+{
+	if (event == PONG_TRACK_FOLLOWED && eye.expecting && eye.expected.has_spin)
+		return velocity_given(eye.expected, match.point);
+	settle(*eye.track);
+	pong_state now;
+	return expected_position(eye, match.point.utime, &now) ? vector_of(now.velocity) : Vector3::Constant(nan);
+}
+
+pong_ball make_ball(pong_eye &eye, const Match &match, pong_track_event event)
 {
 	pong_ball ball = {};
 	ball.utime = match.point.utime;
@@ -226,17 +238,14 @@ pong_ball make_ball(const pong_eye &eye, const Match &match)
 	ball.centre[PONG_RIGHT] = *match.right;
 	const double left_uv[2] = {match.left->u, match.left->v}, right_uv[2] = {match.right->u, match.right->v};
 	ball.epipolar_distance = pong_epipolar_distance(eye.rig.camera, left_uv, right_uv);
-	pong_state now;
-	if (expected_position(eye, ball.utime, &now))
-		std::copy_n(now.velocity, 3, ball.velocity);
-	else
-		std::fill_n(ball.velocity, 3, nan);
+	store(velocity_of(eye, match, event), ball.velocity);
 	return ball;
 }
 
 // From the state that the flight's points tell, by way of where that has the ball now.
-int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
+int predict(pong_eye &eye, int64_t utime, pong_prediction *prediction)
 {
+	settle(*eye.track);
 	pong_state state, now;
 	return pong_track_state(eye.track.get(), &state) &&
 	       pong_predict_at(&eye.rig, &state, utime, &eye.settings, &now) &&
@@ -245,14 +254,15 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 
 void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
 {
-	if (push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
+	const pong_track_event event = push_point(*eye.track, match.point, trust_of(eye, match));
+	if (event == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
 	eye.last = match.point;
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
-	sight->ball = make_ball(eye, match);
+	sight->ball = make_ball(eye, match, event);
 	sight->observations = pong_track_count(eye.track.get());
 }
 
@@ -313,6 +323,7 @@ int pong_eye_expect(pong_eye *eye, int64_t utime)
 	eye->utime = utime;
 	for (Side &side : eye->side)
 		side.forget();
+	settle(*eye->track);
 	pong_track_miss(eye->track.get(), utime);
 	expect(*eye);
 	return PONG_FOUND;

@@ -57,6 +57,12 @@ public:
 			halves_.add(point, rig);
 	}
 
+	// Before the state is asked for.
+	void settle()
+	{
+		estimate_.settle();
+	}
+
 	bool state(pong_state *state) const
 	{
 		return method_ == PONG_STATE_FLIGHT ? count_ > 1 && estimate_.state(state) : halves_.state(state);
@@ -175,6 +181,7 @@ pong_track_event push_other(pong_track &track, const pong_point &point, Trust tr
 	if (other.count() > 0 && !fits(track, other, point))
 		other.clear();
 	other.add(point, track.rig);
+	other.settle();
 	if (other.count() < points_needed(track, point, trust) || prefer_flight(track))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
@@ -202,6 +209,7 @@ pong_track_event push_point(pong_track &track, const pong_point &point, Trust tr
 {
 	if (!usable(point))
 		return PONG_TRACK_REJECTED;
+	settle(track);
 	pong_track_miss(&track, point.utime);
 	if (track.flight->count() > 0 && point.utime <= track.flight->last().utime)
 		return PONG_TRACK_REJECTED;
@@ -209,6 +217,11 @@ pong_track_event push_point(pong_track &track, const pong_point &point, Trust tr
 		return push_other(track, point, trust);
 	track.flight->add(point, track.rig);
 	return PONG_TRACK_FOLLOWED;
+}
+
+void settle(pong_track &track)
+{
+	track.flight->settle();
 }
 
 } // namespace pong
@@ -231,7 +244,9 @@ void pong_track_free(pong_track *track)
 
 pong_track_event pong_track_push(pong_track *track, const pong_point *point)
 {
-	return push_point(*track, *point, Trust::usual);
+	const pong_track_event event = push_point(*track, *point, Trust::usual);
+	settle(*track);
+	return event;
 }
 
 void pong_track_miss(pong_track *track, int64_t utime)
