@@ -65,6 +65,12 @@ void *operator new(size_t size)
 	throw std::bad_alloc();
 }
 
+void *operator new(size_t size, const std::nothrow_t &) noexcept
+{
+	count++;
+	return malloc(size);
+}
+
 void operator delete(void *memory) noexcept
 {
 	free(memory);
