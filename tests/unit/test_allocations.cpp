@@ -6,6 +6,7 @@
 
 #include "allocations.hpp"
 #include "flights.hpp"
+#include "owned.hpp"
 
 namespace
 {
@@ -31,7 +32,8 @@ TEST_P(Allocations, NoneInTracksAndPredictions)
 	const pong_rig rig = rig_of_simulator();
 	pong_settings settings;
 	pong_settings_defaults(GetParam(), &settings);
-	pong_track *track = pong_track_new(&rig, &settings, nullptr);
+	const pong::OwnedTrack owned(pong_track_new(&rig, &settings, nullptr));
+	pong_track *const track = owned.get();
 	const sim::Flight flight = fly(usual_serve());
 	ASSERT_FALSE(flight.bounces().empty());
 	ASSERT_GT(flight.bounces()[0].position.z(), flight.hit()->position.z()); // the bounce is on the way
@@ -57,7 +59,6 @@ TEST_P(Allocations, NoneInTracksAndPredictions)
 	EXPECT_EQ(allocations(), before);
 	EXPECT_EQ(flights, 2);
 	EXPECT_GT(predicted, static_cast<int>(points.size()));
-	pong_track_free(track);
 }
 
 } // namespace

@@ -1,21 +1,12 @@
 // The search region, against points projected one by one.
 #include <cmath>
 #include <gtest/gtest.h>
-#include <memory>
 
+#include "owned.hpp"
 #include "rigs.hpp"
 
 namespace
 {
-
-struct Freed {
-	void operator()(pong_region *region) const
-	{
-		pong_region_free(region);
-	}
-};
-
-using Region = std::unique_ptr<pong_region, Freed>;
 
 pong_settings best_settings()
 {
@@ -29,7 +20,7 @@ TEST(Region, HoldsEveryBallOverTheTable)
 {
 	const pong_rig rig = test_rig();
 	const pong_settings settings = best_settings();
-	const Region region(pong_region_new(&rig, PONG_RIGHT, &settings, nullptr));
+	const pong::OwnedRegion region(pong_region_new(&rig, PONG_RIGHT, &settings, nullptr));
 	ASSERT_TRUE(region);
 	int seen = 0;
 	for (double x = -0.76; x <= 0.76; x += 0.04)
@@ -57,7 +48,7 @@ TEST(Region, LowRowsHoldOnlyLargeBalls)
 {
 	const pong_rig rig = test_rig();
 	const pong_settings settings = best_settings();
-	const Region region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
+	const pong::OwnedRegion region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
 	const pong_region_row high = pong_region_get_row(region.get(), 20),
 			      low = pong_region_get_row(region.get(), 460);
 	EXPECT_LT(high.size_min, 12);
@@ -74,7 +65,7 @@ TEST(Region, EndsAtTheSideLines)
 	// A camera 6 m above the middle of the table that looks straight down; image down is towards the robot.
 	const double above[3][4] = {{-500, -320, 0, 320 * 6.0}, {0, -240, -500, 500 * 1.37 + 240 * 6}, {0, -1, 0, 6}};
 	std::copy_n(&above[0][0], 12, &rig.camera[PONG_LEFT].P[0][0]);
-	const Region region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
+	const pong::OwnedRegion region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
 	ASSERT_TRUE(region);
 	const pong_region_row row = pong_region_get_row(region.get(), 240);
 	EXPECT_NEAR(row.begin, 320 - 500 * 0.7625 / 6, 5);
@@ -90,7 +81,7 @@ TEST(Region, IsTheWholePictureWithoutATable)
 	pong_settings settings = best_settings();
 	settings.region.distance[0] = 1;
 	settings.region.distance[1] = 10;
-	const Region region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
+	const pong::OwnedRegion region(pong_region_new(&rig, PONG_LEFT, &settings, nullptr));
 	const pong_region_row row = pong_region_get_row(region.get(), 100);
 	EXPECT_EQ(row.begin, 0);
 	EXPECT_EQ(row.end, 640);

@@ -1,20 +1,13 @@
 // What a rally does to a track: balls struck back, two at once, gaps, late and repeated points.
 #include <cmath>
 #include <gtest/gtest.h>
-#include <memory>
 
 #include "flights.hpp"
+#include "owned.hpp"
 #include "track.hpp"
 
 namespace
 {
-
-struct Free {
-	void operator()(pong_track *track) const
-	{
-		pong_track_free(track);
-	}
-};
 
 class Track : public testing::Test
 {
@@ -35,7 +28,7 @@ protected:
 	}
 
 	const pong_rig rig_;
-	std::unique_ptr<pong_track, Free> track_;
+	pong::OwnedTrack track_;
 	const sim::Flight flight_ = fly(usual_serve());
 	const std::vector<pong_point> points_ = points_of(flight_, 0, 0.6, 110, 0.002);
 };

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
-#include <memory>
 #include <thread>
 #include <vector>
 
 #include "eager_eye.hpp"
+#include "owned.hpp"
 #include "pictures.hpp"
 #include "program.hpp"
 #include "rigs.hpp"
@@ -20,13 +20,6 @@ namespace
 constexpr double RATE = 110;
 constexpr int64_t SKEW = 30; // us that the right camera's times are later
 
-struct Freed {
-	void operator()(pong_eye *eye) const
-	{
-		pong_eye_free(eye);
-	}
-};
-
 // A ball on a parabola, frame by frame.
 class EagerEyeTest : public testing::Test
 {
@@ -39,9 +32,9 @@ protected:
 				pictures_[side].push_back(draw(side, frame));
 	}
 
-	std::unique_ptr<pong_eye, Freed> eye() const
+	pong::OwnedEye eye() const
 	{
-		return std::unique_ptr<pong_eye, Freed>(pong_eye_new(&rig_, &settings_, nullptr));
+		return pong::OwnedEye(pong_eye_new(&rig_, &settings_, nullptr));
 	}
 
 	Picture draw(int side, int frame) const

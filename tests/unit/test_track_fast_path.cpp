@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "fast_path.hpp"
+#include "owned.hpp"
 #include "pictures.hpp"
 #include "program.hpp"
 #include "rigs.hpp"
@@ -17,13 +18,6 @@ namespace
 
 constexpr double RATE = 110;
 constexpr int64_t PERIOD = 9091; // us
-
-struct Freed {
-	void operator()(pong_eye *eye) const
-	{
-		pong_eye_free(eye);
-	}
-};
 
 // Pairs that both cameras' threads bring while somebody waits.
 class Cameras : public Source
@@ -101,7 +95,7 @@ protected:
 
 	pong_rig rig_;
 	pong_settings settings_;
-	std::unique_ptr<pong_eye, Freed> eye_;
+	pong::OwnedEye eye_;
 	std::unique_ptr<EagerEye> eager_;
 	std::unique_ptr<FastPath> fast_path_;
 	const Picture picture_ = Picture(640, 480, 40);

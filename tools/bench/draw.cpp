@@ -3,7 +3,6 @@
 // Figs. 10 and 12).
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "owned.hpp"
 #include "pongeye.h"
 #include "program.hpp"
 
@@ -45,13 +45,6 @@ pong_image image_of(const cv::Mat &picture)
 	return {picture.data, picture.cols, picture.rows, static_cast<ptrdiff_t>(picture.step)};
 }
 
-struct EyeDeleter {
-	void operator()(pong_eye *eye) const
-	{
-		pong_eye_free(eye);
-	}
-};
-
 Flight follow(const std::string &folder, int from, int to, pong_profile profile)
 {
 	Flight flight = {};
@@ -60,7 +53,7 @@ Flight follow(const std::string &folder, int from, int to, pong_profile profile)
 	pong_settings_defaults(profile, &settings);
 	if (pong_rig_load((folder + "/rig.toml").c_str(), &flight.rig, &error) < 0)
 		throw pong::Failure(error.text);
-	std::unique_ptr<pong_eye, EyeDeleter> eye(pong_eye_new(&flight.rig, &settings, &error));
+	const pong::OwnedEye eye(pong_eye_new(&flight.rig, &settings, &error));
 	if (!eye)
 		throw pong::Failure(error.text);
 	for (int frame = from; frame <= to; frame++) {

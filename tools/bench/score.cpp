@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "owned.hpp"
 #include "pongeye.h"
 #include "program.hpp"
 #include "table.hpp"
@@ -111,26 +112,17 @@ public:
 		    pong_settings_load(path.c_str(), &settings, &error) < 0)
 			throw pong::Failure(error.text);
 		for (int side = 0; side < 2; side++)
-			region_[side] = pong_region_new(&rig_, side ? PONG_RIGHT : PONG_LEFT, &settings, &error);
+			region_[side].reset(pong_region_new(&rig_, static_cast<pong_side>(side), &settings, &error));
 		if (!region_[0] || !region_[1])
 			throw pong::Failure(error.text);
 	}
-
-	~Region()
-	{
-		pong_region_free(region_[0]);
-		pong_region_free(region_[1]);
-	}
-
-	Region(const Region &) = delete;
-	Region &operator=(const Region &) = delete;
 
 	bool contains(const Truth &truth) const
 	{
 		for (int side = 0; side < 2; side++) {
 			const int v = static_cast<int>(std::lround(truth.uv[side][1]));
-			const pong_region_row row =
-				pong_region_get_row(region_[side], std::clamp(v, 0, rig_.camera[side].height - 1));
+			const pong_region_row row = pong_region_get_row(region_[side].get(),
+									std::clamp(v, 0, rig_.camera[side].height - 1));
 			if (!(truth.uv[side][0] >= row.begin && truth.uv[side][0] < row.end))
 				return false;
 		}
@@ -139,7 +131,7 @@ public:
 
 private:
 	pong_rig rig_;
-	pong_region *region_[2];
+	pong::OwnedRegion region_[2];
 };
 
 // A list of errors, and what is said of it.

@@ -1,9 +1,7 @@
 // One flight's points through the library: track and predict.
 #pragma once
 
-#include <memory>
-
-#include "pongeye.h"
+#include "owned.hpp"
 
 namespace predict
 {
@@ -30,15 +28,9 @@ public:
 	int count() const;
 
 private:
-	struct Free {
-		void operator()(pong_track *track) const
-		{
-			pong_track_free(track);
-		}
-	};
 	pong_rig rig_;
 	pong_settings settings_;
-	std::unique_ptr<pong_track, Free> track_;
+	pong::OwnedTrack track_;
 	int64_t last_utime_ = 0;
 };
 

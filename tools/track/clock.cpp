@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
+
+#include "clocks.hpp"
 
 namespace track
 {
@@ -17,23 +18,16 @@ constexpr double CONTRADICTION_NS = 0.5e6;
 // What is known of a crystal's drift before it is measured.
 constexpr double DRIFT_SIGMA = 50e-6;
 
-int64_t read_clock(clockid_t clock)
-{
-	timespec time;
-	clock_gettime(clock, &time);
-	return time.tv_sec * INT64_C(1000000000) + time.tv_nsec;
-}
-
 } // namespace
 
 int64_t monotonic_ns()
 {
-	return read_clock(CLOCK_MONOTONIC);
+	return pong::read_clock_ns(CLOCK_MONOTONIC);
 }
 
 int64_t unix_ns()
 {
-	return read_clock(CLOCK_REALTIME);
+	return pong::read_clock_ns(CLOCK_REALTIME);
 }
 
 bool ClockFit::add(const ClockReading &reading)

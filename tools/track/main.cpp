@@ -15,6 +15,7 @@
 #include "images.hpp"
 #include "live_table.hpp"
 #include "output.hpp"
+#include "owned.hpp"
 #include "program.hpp"
 #include "publisher.hpp"
 #include "recording.hpp"
@@ -28,14 +29,6 @@ namespace track
 
 namespace
 {
-
-struct EyeDeleter {
-	void operator()(pong_eye *eye) const
-	{
-		pong_eye_free(eye);
-	}
-};
-using Eye = std::unique_ptr<pong_eye, EyeDeleter>;
 
 // Where the results go; whatever is not wanted is null.
 struct Sinks {
@@ -51,10 +44,10 @@ struct Session {
 	int64_t end_ns; // by monotonic_ns()
 };
 
-Eye open_eye(const Setup &setup)
+pong::OwnedEye open_eye(const Setup &setup)
 {
 	pong_error error;
-	Eye eye(pong_eye_new(&setup.rig, &setup.settings, &error));
+	pong::OwnedEye eye(pong_eye_new(&setup.rig, &setup.settings, &error));
 	if (!eye)
 		throw pong::Failure(error.text);
 	return eye;
@@ -199,7 +192,7 @@ int run(int argc, char **argv)
 	const Setup setup = open_setup(arguments, replay.get());
 	const CaptureSettings capture =
 		arguments.from_cameras() ? load_capture_settings(arguments.rig) : CaptureSettings();
-	const Eye eye = open_eye(setup);
+	const pong::OwnedEye eye = open_eye(setup);
 	EagerEye eager(eye.get(), capture.rate);
 	Sinks sinks = open_sinks(arguments, setup);
 	FastPath fast_path(eager, sinks.publisher.get());

@@ -2,40 +2,15 @@
 
 #include <cstring>
 
-#include "program.hpp"
-
 namespace track
 {
 
-namespace
+Overheard::Overheard(const std::string &url)
+	: lcm_(url, "LCM brings no more messages: trigger pulses are no longer recorded")
 {
-
-constexpr int PATIENCE_MS = 100; // how soon the thread sees that it is to end
-
-} // namespace
-
-Overheard::Overheard(const std::string &url) : lcm_(url)
-{
-	if (!lcm_.good())
-		throw pong::Failure("LCM URL " + url + ": LCM cannot open it");
-	lcm_.subscribe("PONGEYE_TRIGGER", &Overheard::on_pulse, this);
-	lcm_.subscribe("PONGEYE_RECORD", &Overheard::on_request, this);
-	thread_ = std::thread([this] { listen(); });
-}
-
-Overheard::~Overheard()
-{
-	stop_ = true;
-	thread_.join();
-}
-
-void Overheard::listen()
-{
-	while (!stop_)
-		if (lcm_.handleTimeout(PATIENCE_MS) < 0) {
-			pong::say("LCM brings no more messages: trigger pulses are no longer recorded");
-			return;
-		}
+	lcm_.bus().subscribe("PONGEYE_TRIGGER", &Overheard::on_pulse, this);
+	lcm_.bus().subscribe("PONGEYE_RECORD", &Overheard::on_request, this);
+	lcm_.start();
 }
 
 void Overheard::on_pulse(const lcm::ReceiveBuffer *buffer, const std::string &)

@@ -1,43 +1,18 @@
 #include "trigger_listener.hpp"
 
-#include "program.hpp"
-
 namespace track
 {
-
-namespace
-{
-
-constexpr int PATIENCE_MS = 100; // how soon the thread sees that it is to end
-
-} // namespace
 
 bool TriggerListener::can_hear(const std::string &url)
 {
 	return url.rfind("udpm://", 0) == 0 || url.rfind("tcpq://", 0) == 0;
 }
 
-TriggerListener::TriggerListener(const std::string &url) : lcm_(url)
+TriggerListener::TriggerListener(const std::string &url)
+	: lcm_(url, "LCM no longer brings the trigger's pulses: frames are counted from now on")
 {
-	if (!lcm_.good())
-		throw pong::Failure("LCM URL " + url + ": LCM cannot open it");
-	lcm_.subscribe("PONGEYE_TRIGGER", &TriggerListener::on_pulse, this);
-	thread_ = std::thread([this] { listen(); });
-}
-
-TriggerListener::~TriggerListener()
-{
-	stop_ = true;
-	thread_.join();
-}
-
-void TriggerListener::listen()
-{
-	while (!stop_)
-		if (lcm_.handleTimeout(PATIENCE_MS) < 0) {
-			pong::say("LCM no longer brings the trigger's pulses: frames are counted from now on");
-			return;
-		}
+	lcm_.bus().subscribe("PONGEYE_TRIGGER", &TriggerListener::on_pulse, this);
+	lcm_.start();
 }
 
 void TriggerListener::on_pulse(const lcm::ReceiveBuffer *, const std::string &, const pongeye::trigger_t *message)

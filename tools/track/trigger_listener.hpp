@@ -1,13 +1,11 @@
 // Hears what pongeye-trigger publishes, PONGEYE_TRIGGER, in a thread of its own: whoever tracks never waits for it.
 #pragma once
 
-#include <atomic>
-#include <lcm/lcm-cpp.hpp>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include "fifo.hpp"
+#include "lcm_thread.hpp"
 #include "pongeye/trigger_t.hpp"
 #include "pulse_numbering.hpp"
 
@@ -22,9 +20,6 @@ public:
 
 	// Throws pong::Failure where LCM cannot open the URL.
 	explicit TriggerListener(const std::string &url);
-	~TriggerListener();
-	TriggerListener(const TriggerListener &) = delete;
-	TriggerListener &operator=(const TriggerListener &) = delete;
 
 	// The next pulse, in the order of their coming; false where there is none.
 	bool take(TriggerPulse &pulse);
@@ -32,14 +27,11 @@ public:
 private:
 	static constexpr size_t WAITING = 256; // pulses that nobody takes: the oldest are forgotten
 
-	void listen();
 	void on_pulse(const lcm::ReceiveBuffer *buffer, const std::string &channel, const pongeye::trigger_t *message);
 
-	lcm::LCM lcm_;
 	std::mutex mutex_;
 	Fifo<TriggerPulse, WAITING> pulses_;
-	std::atomic<bool> stop_{false};
-	std::thread thread_;
+	LcmThread lcm_;
 };
 
 } // namespace track

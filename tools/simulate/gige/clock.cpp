@@ -1,9 +1,10 @@
 #include "clock.hpp"
 
-#include <ctime>
-
 #include <algorithm>
+#include <ctime>
 #include <limits>
+
+#include "clocks.hpp"
 
 namespace gige
 {
@@ -13,18 +14,11 @@ namespace
 
 constexpr int64_t second = 1000000000;
 
-int64_t now(clockid_t clock)
-{
-	timespec time;
-	clock_gettime(clock, &time);
-	return time.tv_sec * second + time.tv_nsec;
-}
-
 } // namespace
 
 int64_t monotonic_now()
 {
-	return now(CLOCK_MONOTONIC);
+	return pong::read_clock_ns(CLOCK_MONOTONIC);
 }
 
 // One clock is read between two readings of the other. The tightest of a few tries is one that nothing interrupted.
@@ -32,8 +26,9 @@ int64_t monotonic_to_realtime(int64_t time)
 {
 	int64_t tightest = std::numeric_limits<int64_t>::max(), difference = 0;
 	for (int i = 0; i < 4; i++) {
-		const int64_t before = now(CLOCK_MONOTONIC), realtime = now(CLOCK_REALTIME),
-			      after = now(CLOCK_MONOTONIC);
+		const int64_t before = pong::read_clock_ns(CLOCK_MONOTONIC),
+			      realtime = pong::read_clock_ns(CLOCK_REALTIME),
+			      after = pong::read_clock_ns(CLOCK_MONOTONIC);
 		if (after - before < tightest) {
 			tightest = after - before;
 			difference = realtime - (before + after) / 2;
