@@ -136,10 +136,10 @@ void sum_cells_plainly(const uint8_t *top, ptrdiff_t stride, int count, uint16_t
 		sum_few_plainly(top + cell_size * i, stride, std::min(count - i, cells_most), sums + i);
 }
 
-PONG_CLONES void scale_cells(uint16_t *sums, int count, int32_t gain)
+PONG_CLONES void scale_cells(const uint16_t *sums, int count, int32_t gain, uint16_t *scaled)
 {
 	for (int i = 0; i < count; i++)
-		sums[i] = static_cast<uint16_t>(sums[i] * gain / gain_one);
+		scaled[i] = static_cast<uint16_t>(sums[i] * gain / gain_one);
 }
 
 PONG_CLONES int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference)

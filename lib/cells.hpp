@@ -19,7 +19,7 @@ void sum_cells_plainly(const uint8_t *top, ptrdiff_t stride, int count, uint16_t
 
 // Grey levels times a gain, in 1 / gain_one, at most 4.
 const int32_t gain_one = 4096;
-void scale_cells(uint16_t *sums, int count, int32_t gain);
+void scale_cells(const uint16_t *sums, int count, int32_t gain, uint16_t *scaled);
 
 // now - then of `count` cells. Returns the greatest magnitude.
 int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference);

@@ -52,6 +52,11 @@ void pong_detector_free(pong_detector *detector)
 	delete detector;
 }
 
+void pong_detector_remember(pong_detector *detector, const pong_image *image)
+{
+	detector->method->remember(*image);
+}
+
 int pong_detect(pong_detector *detector, const pong_pictures *pictures, const pong_window *window,
 		pong_detection *found, int capacity)
 {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blob.hpp"
+#include "cell_memory.hpp"
 #include "circles.hpp"
 #include "conditions.hpp"
 #include "fresh.hpp"
@@ -71,6 +72,11 @@ public:
 	int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 		   int capacity) override;
 
+	void remember(const pong_image &image) override
+	{
+		memory_.remember(image);
+	}
+
 	void set_previous(const pong_image *previous) override
 	{
 		previous_ = previous;
@@ -92,10 +98,14 @@ private:
 				visit(strip);
 		}
 	}
+	void recall(const pong_pictures &pictures);
+	void fetch_ahead(const pong_pictures &pictures, const Area &cells, bool windowed) const;
 	void sum_pictures(const pong_pictures &pictures, const Area &cells);
+	const uint16_t *older_strip(const pong_image &older, const Area &strip);
 	void light_cells(const pong_image &older, const Conditions &conditions, const Area &cells);
 	int subtract(const Area &strip);
-	Area differing(const Area &strip, int32_t gain, int32_t threshold);
+	void scale_earlier(const Area &cells, int32_t gain);
+	Area differing(const Area &strip, bool scaled, int32_t threshold);
 	void light_strip(const pong_image &older, int32_t gain, int32_t threshold, const Area &strip);
 	size_t cell(int column, int row) const
 	{
@@ -117,8 +127,11 @@ private:
 	std::vector<int32_t> lit_;   // by cell, with a border: how far outside of both, 0 if not lit
 	std::vector<int> lit_cells_; // places in lit_, in the order of scan
 	std::vector<int> stack_;
-	std::vector<uint16_t> now_, then_; // cells of the current and the earlier picture
-	std::vector<int> change_;          // by row of cells, the greatest between them
+	CellMemory memory_;
+	std::vector<uint16_t> now_, then_; // cells of the current and the earlier picture,
+	const uint16_t *then_cells_;       // of which the latter may be remembered, and
+	const uint16_t *older_cells_;      // of the older one, null if they are not
+	std::vector<int> change_;          // by row of cells, the greatest between current and earlier
 	std::vector<uint16_t> before_;     // one row of the older picture
 	std::vector<int16_t> to_then_, to_before_;
 	std::vector<Area> differing_; // parts of rows that the earlier picture does not show
@@ -130,7 +143,8 @@ private:
 
 DoubleDifference::DoubleDifference(const pong_region &region, const pong_settings &settings)
 	: region_(region), contrast_(settings.detect.contrast), columns_(region.width / cell_size),
-	  rows_(region.height / cell_size), patch_(region.width, region.height)
+	  rows_(region.height / cell_size), memory_(region.width, region.height, 2 * settings.detect.gap + 1),
+	  patch_(region.width, region.height)
 {
 	const size_t cells = static_cast<size_t>(columns_ + 2 * reach) * static_cast<size_t>(rows_ + 2 * reach);
 	lit_.resize(cells);
@@ -207,12 +221,12 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 				out[begin + i] = in[i * every];
 		};
 		const int begin = samples[0].count;
-		const pong_image &older = pictures.earlier[1];
-		sum_cells(corner(older, cells.u_begin, row), older.stride, columns, before_.data());
-		sample(&now_[cell(cells.u_begin, row)], begin, samples[0].now);
+		const size_t first = cell(cells.u_begin, row);
+		sample(&now_[first], begin, samples[0].now);
 		std::copy_n(samples[0].now + begin, sampled_cells, samples[1].now + begin);
-		sample(&then_[cell(cells.u_begin, row)], begin, samples[0].then);
-		sample(before_.data(), begin, samples[1].then);
+		sample(&then_cells_[first], begin, samples[0].then);
+		sample(older_strip(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1}), begin,
+		       samples[1].then);
 		samples[0].count = samples[1].count = begin + (columns + every - 1) / every;
 	});
 	Gains gains = {{measure_gain(samples[0]), measure_gain(samples[1])}};
@@ -228,16 +242,44 @@ Conditions DoubleDifference::measure_conditions(const pong_pictures &pictures, c
 	return {gains, std::max(noise_, noise_least)};
 }
 
-// A strip of one picture, then of the other: while one is summed, memory sends the next strip of the other.
+void DoubleDifference::recall(const pong_pictures &pictures)
+{
+	const uint16_t *const remembered = memory_.cells_of(pictures.earlier[0]);
+	then_cells_ = remembered ? remembered : then_.data();
+	older_cells_ = memory_.cells_of(pictures.earlier[1]);
+}
+
+// Have the memory send what will be read first: of windows all, of whole pictures the samples.
+void DoubleDifference::fetch_ahead(const pong_pictures &pictures, const Area &cells, bool windowed) const
+{
+	if (windowed) {
+		fetch(pictures.current, cells);
+		if (then_cells_ == then_.data())
+			fetch(pictures.earlier[0], cells);
+	}
+	if (older_cells_)
+		return;
+	if (windowed)
+		fetch(pictures.earlier[1], cells);
+	else
+		for_each_sampled_row(cells, [&](int row) {
+			fetch(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1});
+		});
+}
+
+// A strip of one picture, then of the other: while one is summed, memory sends the next strip of the other. What is
+// remembered is not read.
 void DoubleDifference::sum_pictures(const pong_pictures &pictures, const Area &cells)
 {
+	const bool read_earlier = then_cells_ == then_.data();
 	const auto sum_strip = [&](const pong_image &image, const Area &strip, std::vector<uint16_t> &sums) {
 		sum_cells(corner(image, strip.u_begin, strip.v_begin), image.stride, strip.u_end - strip.u_begin,
 			  &sums[cell(strip.u_begin, strip.v_begin)]);
 	};
 	for_each_strip(cells, [&](const Area &strip) {
 		sum_strip(pictures.current, strip, now_);
-		sum_strip(pictures.earlier[0], strip, then_);
+		if (read_earlier)
+			sum_strip(pictures.earlier[0], strip, then_);
 		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
 	});
 	// Samples are taken beside the region too.
@@ -246,24 +288,42 @@ void DoubleDifference::sum_pictures(const pong_pictures &pictures, const Area &c
 		if (strip.u_begin == cells.u_begin && strip.u_end == cells.u_end)
 			return;
 		sum_strip(pictures.current, {cells.u_begin, cells.u_end, row, row + 1}, now_);
-		sum_strip(pictures.earlier[0], {cells.u_begin, cells.u_end, row, row + 1}, then_);
+		if (read_earlier)
+			sum_strip(pictures.earlier[0], {cells.u_begin, cells.u_end, row, row + 1}, then_);
 	});
+}
+
+// The cells of a part of a row of the older picture.
+const uint16_t *DoubleDifference::older_strip(const pong_image &older, const Area &strip)
+{
+	if (older_cells_)
+		return &older_cells_[cell(strip.u_begin, strip.v_begin)];
+	sum_cells(corner(older, strip.u_begin, strip.v_begin), older.stride, strip.u_end - strip.u_begin,
+		  before_.data());
+	return before_.data();
 }
 
 // The greatest change of a strip's cells.
 int DoubleDifference::subtract(const Area &strip)
 {
 	const size_t first = cell(strip.u_begin, strip.v_begin);
-	return subtract_cells(&now_[first], &then_[first], strip.u_end - strip.u_begin, to_then_.data());
+	return subtract_cells(&now_[first], &then_cells_[first], strip.u_end - strip.u_begin, to_then_.data());
+}
+
+void DoubleDifference::scale_earlier(const Area &cells, int32_t gain)
+{
+	for_each_strip(cells, [&](const Area &strip) {
+		const size_t first = cell(strip.u_begin, strip.v_begin);
+		scale_cells(&then_cells_[first], strip.u_end - strip.u_begin, gain, &then_[first]);
+	});
+	then_cells_ = then_.data();
 }
 
 // The part of a strip, from its first to its last cell, that differs from the earlier picture by more than the
 // threshold.
-Area DoubleDifference::differing(const Area &strip, int32_t gain, int32_t threshold)
+Area DoubleDifference::differing(const Area &strip, bool scaled, int32_t threshold)
 {
-	if (gain != gain_one)
-		scale_cells(&then_[cell(strip.u_begin, strip.v_begin)], strip.u_end - strip.u_begin, gain);
-	else if (change_[static_cast<size_t>(strip.v_begin)] <= threshold)
+	if (!scaled && change_[static_cast<size_t>(strip.v_begin)] <= threshold)
 		return {0, 0, 0, 0};
 	if (subtract(strip) <= threshold)
 		return {0, 0, 0, 0};
@@ -284,12 +344,14 @@ void DoubleDifference::light_strip(const pong_image &older, int32_t gain, int32_
 {
 	const int count = strip.u_end - strip.u_begin;
 	const size_t first = cell(strip.u_begin, strip.v_begin);
-	sum_cells(corner(older, strip.u_begin, strip.v_begin), older.stride, count, before_.data());
-	if (gain != gain_one)
-		scale_cells(before_.data(), count, gain);
-	if (subtract_cells(&now_[first], before_.data(), count, to_before_.data()) <= threshold)
+	const uint16_t *before = older_strip(older, strip);
+	if (gain != gain_one) {
+		scale_cells(before, count, gain, before_.data());
+		before = before_.data();
+	}
+	if (subtract_cells(&now_[first], before, count, to_before_.data()) <= threshold)
 		return;
-	subtract_cells(&now_[first], &then_[first], count, to_then_.data());
+	subtract_cells(&now_[first], &then_cells_[first], count, to_then_.data());
 	for (int i = 0; i < count; i++) {
 		const int32_t a = to_then_[static_cast<size_t>(i)], b = to_before_[static_cast<size_t>(i)];
 		const int32_t beyond = (a > 0) == (b > 0) ? std::min(std::abs(a), std::abs(b)) : 0;
@@ -310,11 +372,15 @@ void DoubleDifference::light_cells(const pong_image &older, const Conditions &co
 	const double least = std::max(noise_factor * conditions.noise, contrast_part * contrast_);
 	const int32_t threshold = static_cast<int32_t>(cell_pixels * least);
 	differing_.clear();
+	const bool scaled = conditions.gains.of[0] != gain_one;
+	if (scaled)
+		scale_earlier(cells, conditions.gains.of[0]);
 	for_each_strip(cells, [&](const Area &strip) {
-		const Area part = differing(strip, conditions.gains.of[0], threshold);
+		const Area part = differing(strip, scaled, threshold);
 		if (part.empty())
 			return;
-		fetch(older, part);
+		if (!older_cells_)
+			fetch(older, part);
 		differing_.push_back(part);
 	});
 	for (const Area &part : differing_)
@@ -385,8 +451,7 @@ int DoubleDifference::look_at(const Group &group, const pong_pictures &pictures,
 	if (extent < limits.size_min / 2)
 		return count;
 	const Area around = pixels_of(group, close_margin);
-	if (!window) // the cache may hold no more what was read long ago
-		fetch(pictures, cells_of(around));
+	fetch(pictures, cells_of(around)); // the cache may hold no more what was read long ago
 	patch_.fill(pictures, conditions.gains, around);
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
@@ -409,6 +474,7 @@ int DoubleDifference::look_at_fresh(const pong_pictures &pictures, const Conditi
 	const int32_t gain = gain_between(latest.current, *previous_);
 	const Conditions since = {{{gain, gain}}, conditions.noise};
 	const Area all = {0, columns_, 0, rows_};
+	recall(latest);
 	sum_pictures(latest, all);
 	light_cells(*previous_, since, all);
 	const int stride = columns_ + 2 * reach;
@@ -442,12 +508,8 @@ int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *w
 	const Area cells = cells_of(searched_area(region_.width, region_.height, window));
 	if (cells.empty())
 		return 0;
-	if (window)
-		fetch(pictures, cells);
-	else
-		for_each_sampled_row(cells, [&](int row) {
-			fetch(pictures.earlier[1], {cells.u_begin, cells.u_end, row, row + 1});
-		});
+	recall(pictures);
+	fetch_ahead(pictures, cells, window != nullptr);
 	sum_pictures(pictures, cells);
 	const Conditions conditions = measure_conditions(pictures, cells, window != nullptr);
 	light_cells(pictures.earlier[1], conditions, cells);

@@ -19,6 +19,11 @@ public:
 	virtual int detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			   int capacity) = 0;
 
+	// As pong_detector_remember.
+	virtual void remember(const pong_image &)
+	{
+	}
+
 	// Tell the picture right before the next search's current one, or null: then what moves slowly may be a ball.
 	virtual void set_previous(const pong_image *)
 	{

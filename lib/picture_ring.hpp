@@ -42,16 +42,17 @@ public:
 		newest_ = image;
 	}
 
-	// Copy the newest.
-	void keep()
+	// Copy the newest. False where that has been done.
+	bool keep()
 	{
 		if (!newest_.pixels)
-			return;
+			return false;
 		uint8_t *copy = pixels_of(kept_++);
 		for (int v = 0; v < height_; v++)
 			memcpy(copy + static_cast<size_t>(v) * width_, newest_.pixels + v * newest_.stride,
 			       static_cast<size_t>(width_));
 		newest_ = {};
+		return true;
 	}
 
 	// As if the newest had never been added, unless it was kept.

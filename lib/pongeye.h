@@ -406,6 +406,11 @@ typedef struct pong_detector pong_detector;
 PONG_API pong_detector *pong_detector_new(const pong_region *region, const pong_settings *settings, pong_error *error);
 PONG_API void pong_detector_free(pong_detector *detector);
 
+/* Remember what later pictures are compared with of this one: a search then does not read it again where nothing has
+ * changed. Until a picture at the same place is remembered, the pixels there must stay as they are; the last 256 places
+ * are. A search finds the same with and without. */
+PONG_API void pong_detector_remember(pong_detector *detector, const pong_image *image);
+
 /* Find what looks like a ball in the current picture and was not there earlier, best contrast first. The pictures have
  * the camera's size. With a window only what lies in it is searched, else (NULL) the whole region.
  * Returns how many were written to found[capacity]; 0 if there is none. */

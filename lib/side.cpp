@@ -48,6 +48,14 @@ Side::Side(const pong_rig &rig, pong_side side, const pong_settings &settings)
 {
 }
 
+void Side::keep()
+{
+	if (!pictures_.keep())
+		return;
+	const pong_image kept = pictures_.earlier(0);
+	pong_detector_remember(detector_.get(), &kept);
+}
+
 pong_pictures Side::compared() const
 {
 	const size_t gap = static_cast<size_t>(settings_.detect.gap);

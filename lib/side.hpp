@@ -38,10 +38,7 @@ public:
 	{
 		pictures_.add(image);
 	}
-	void keep()
-	{
-		pictures_.keep();
-	}
+	void keep();
 	void forget()
 	{
 		pictures_.forget();

@@ -14,8 +14,8 @@ enum class Trust {
 	certain, // a ball and nothing else: begins a flight soon after another was last seen
 };
 
-// As pong_track_push, whose points are of usual trust. What a point tells that is PONG_TRACK_FOLLOWED is only worked out
-// by settle(), which takes most of the time: until then the flight's state is that of the point before.
+// As pong_track_push, whose points are of usual trust. What a point tells that is PONG_TRACK_FOLLOWED is only worked
+// out by settle(), which takes most of the time: until then the flight's state is that of the point before.
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust);
 void settle(pong_track &track);
 

@@ -1,12 +1,14 @@
 // What is found, and what is not, in drawn pictures.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <random>
 
-#include "cells.hpp"
+#include "cell_memory.hpp"
 #include "conditions.hpp"
 #include "outline.hpp"
+#include "owned.hpp"
 #include "pictures.hpp"
 #include "rigs.hpp"
 
@@ -218,6 +220,47 @@ TEST_P(DoubleDifference, BearsAFlickeringLamp)
 	EXPECT_NEAR(found_[0].u, 300, 0.5);
 }
 
+// Whole pictures and windows, in steady light and in another one: what is remembered is found as if it were read.
+TEST_P(DoubleDifference, FindsTheSameOfWhatItRemembers)
+{
+	Picture current(width, height, 60), earlier(width, height, 60), dimmer(width, height, 50);
+	current.draw_ball(300, 200, 9, 200);
+	current.draw_ball(331, 236, 7, 150);
+	for (Picture *picture : {&current, &earlier, &dimmer})
+		picture->add_noise(noise, 3);
+	const pong_window window = {280, 180, 80, 80, 8, 30};
+	for (const Picture *before : {&earlier, &dimmer})
+		for (const pong_window *where : {static_cast<const pong_window *>(nullptr), &window}) {
+			const pong::OwnedDetector reading(pong_detector_new(region_, &settings_, nullptr)),
+				remembering(pong_detector_new(region_, &settings_, nullptr));
+			const pong_pictures pictures = {current.image(), {before->image(), earlier.image()}};
+			pong_detection read[8], recalled[8];
+			const int count = pong_detect(reading.get(), &pictures, where, read, 8);
+			EXPECT_GE(count, 1);
+			for (const pong_image &image : pictures.earlier)
+				pong_detector_remember(remembering.get(), &image);
+			ASSERT_EQ(pong_detect(remembering.get(), &pictures, where, recalled, 8), count);
+			for (int i = 0; i < count; i++)
+				EXPECT_EQ(memcmp(&read[i], &recalled[i], sizeof read[i]), 0) << i;
+		}
+}
+
+// What is remembered is that of the picture at that place, and of no other; the oldest goes first.
+TEST(CellMemory, IsBounded)
+{
+	std::vector<uint8_t> pixels(static_cast<size_t>(width * height) + 400, 20);
+	pong::CellMemory memory(width, height, 1);
+	const auto at = [&](int i) { return pong_image{pixels.data() + i, width, height, width}; };
+	EXPECT_EQ(memory.cells_of(at(0)), nullptr);
+	for (int i = 0; i < 300; i++)
+		memory.remember(at(i));
+	EXPECT_NE(memory.cells_of(at(299)), nullptr);
+	EXPECT_EQ(memory.cells_of(at(1)), nullptr);
+	pixels.assign(pixels.size(), 30);
+	memory.remember(at(299));
+	EXPECT_EQ(memory.cells_of(at(299))[0], 30 * pong::cell_pixels);
+}
+
 TEST(Cells, SumsAreThoseOfTheirPixels)
 {
 	const int count = 53, stride = 4 * count + 7;
@@ -253,9 +296,10 @@ TEST(Cells, DifferencesAreThoseOfTheirSums)
 	EXPECT_EQ(pong::subtract_cells(now, then, count, difference), greatest);
 	for (int i = 0; i < count; i++)
 		EXPECT_EQ(difference[i], now[i] - then[i]);
-	pong::scale_cells(then, count, pong::gain_one * 5 / 4);
+	uint16_t scaled[count];
+	pong::scale_cells(then, count, pong::gain_one * 5 / 4, scaled);
 	for (int i = 0; i < count; i++)
-		EXPECT_EQ(then[i], (now[i] - difference[i]) * 5 / 4);
+		EXPECT_EQ(scaled[i], then[i] * 5 / 4);
 }
 
 // Gain and noise of what rests, though a third of the samples move.

@@ -113,8 +113,15 @@ uint64_t read_window(const pong_image &image, const pong_window &window)
 class Race
 {
 public:
+	// Of earlier pictures the detectors remember what the eye has them remember.
 	Race(Studio &studio, int length) : studio_(studio), ring_(studio, length), eyes_(studio.rig())
 	{
+		for (const Shot &shot : ring_.shots)
+			for (int side = 0; side < 2; side++) {
+				const pong_pictures pictures = shot.pictures(static_cast<pong_side>(side));
+				for (const pong_image &earlier : pictures.earlier)
+					pong_detector_remember(eyes_.detector[side], &earlier);
+			}
 		for (const Eigen::Vector3d &place : ring_.places) {
 			windows_.emplace_back();
 			for (int side = 0; side < 2; side++)
