@@ -18,9 +18,9 @@ using TermsMatrix = Eigen::Matrix<double, PONG_LIGHT_TERMS, PONG_LIGHT_TERMS>;
 using ShareMatrix = Eigen::Matrix<double, centre_terms, PONG_LIGHT_TERMS>;
 
 // How unlike the light is in the two pictures, standard deviations: by a factor, for cameras are set unlike; by a part
-// of the rise of the shading and by grey levels, for surfaces are not quite matt.
+// of the rise of the shading and by grey levels, for surfaces are not quite matt, nor smooth.
 const double gain_difference = 0.3;
-const double part_difference = 0.02;
+const double part_difference = 0.1;
 const double level_difference = 2;
 const double radius_difference = 0.01; // px, the distances from both cameras being known
 // How unlike the light of two pictures usually is at most, squared, a term, in the standard deviations of what is known
