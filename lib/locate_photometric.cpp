@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ball_pixels.hpp"
+#include "light.hpp"
 
 namespace pong
 {
@@ -16,11 +17,12 @@ const double blur_usual = 0.65; // standard deviation of the blurred step, px: l
 const double blur_least = 0.35, blur_most = 2;
 const double blur_prior = 0.2; // standard deviation of that guess, px
 const int rounds = 8;
-const int plain_rounds = 2;                  // without robust weights
-const double converged = 0.01;               // px
-const double farthest = 0.3;                 // of a radius, that the fit may move from its start, and
-const double farthest_px = 1;                // px
-const float outlier = 3;                     // residuals of so many standard deviations count half
+const int plain_rounds = 2;    // without robust weights
+const double converged = 0.01; // px
+const double farthest = 0.3;   // of a radius, that the fit may move from its start, and
+const double farthest_px = 1;  // px
+const float outlier = 3;       // residuals of so many standard deviations count half
+const int radius_parameter = 2;
 const int first_curved = geometry_terms + 4; // the first parameter of a shading term of second order
 // Standard deviations of the shading's coefficients, grey levels: of the zeroth and first order; and of the second,
 // which is less where the first is small.
@@ -92,9 +94,13 @@ public:
 		return true;
 	}
 
-	const SphereParameters &parameters() const
+	// In the plane.
+	FoundVector found() const
 	{
-		return now_;
+		FoundVector out;
+		for (int i = 0; i < found_terms; i++)
+			out[i] = static_cast<double>(now_.value[parameter_of(i)]);
+		return out;
 	}
 
 	// Whether the sphere explains most of what tells the ball from its background.
@@ -103,31 +109,27 @@ public:
 		return unexplained_ < unexplained_allowed * different_;
 	}
 
-	// Of the centre in the plane. Were the model true, the first part would do. What it cannot express shows in
+	// Of what is found, in the plane. Were the model true, the first part would do. What it cannot express shows in
 	// residuals that neighbours share: the second part takes them as alike within a patch.
-	Matrix2 covariance() const
+	FoundMatrix covariance() const
 	{
-		const Eigen::Matrix<double, sphere_parameters, 2> columns = uncertainty();
-		Vector2 pull[patches];
-		std::fill_n(pull, patches, Vector2(0, 0));
+		float pull[patches][sphere_parameters] = {};
 		for (int b = 0; b < pixels_.count; b++) {
-			float along[2][block] = {};
-			for (int k = 0; k < sphere_parameters; k++)
-				for (int axis = 0; axis < 2; axis++) {
-					const float column = static_cast<float>(columns(k, axis));
-					for (int i = 0; i < block; i++)
-						along[axis][i] += column * pixels_.blocks[b].slope[k][i];
-				}
-			for (int i = 0; i < block; i++) {
-				const float weighted = kept_[b][i] * residual_[b][i];
-				pull[pixels_.patch[b][i]] += Vector2(static_cast<double>(weighted * along[0][i]),
-								     static_cast<double>(weighted * along[1][i]));
-			}
+			float weighted[block];
+			for (int i = 0; i < block; i++)
+				weighted[i] = kept_[b][i] * residual_[b][i];
+			for (int i = 0; i < block; i++)
+				for (int k = 0; k < sphere_parameters; k++)
+					pull[pixels_.patch[b][i]][k] += weighted[i] * pixels_.blocks[b].slope[k][i];
 		}
-		Matrix2 sum = noise_part * variance_ * columns.topRows<2>();
-		for (const Vector2 &one : pull)
-			sum += patch_part * one * one.transpose();
-		return sum;
+		const Eigen::Matrix<double, sphere_parameters, found_terms> columns = uncertainty();
+		FoundMatrix fit;
+		for (int i = 0; i < found_terms; i++)
+			fit.row(i) = columns.row(parameter_of(i));
+		const auto pulls =
+			Eigen::Map<Eigen::Matrix<float, patches, sphere_parameters, Eigen::RowMajor>>(&pull[0][0]);
+		const Eigen::Matrix<double, patches, found_terms> moved = pulls.cast<double>() * columns;
+		return noise_part * variance_ * fit + patch_part * moved.transpose() * moved;
 	}
 
 	// Whether at some of the outline the picture is not at all what a ball would make it.
@@ -149,11 +151,18 @@ public:
 	}
 
 private:
-	// The columns of the normal matrix's inverse that belong to the centre.
-	Eigen::Matrix<double, sphere_parameters, 2> uncertainty() const
+	// Which of the fit's parameters a term of what is found is.
+	static int parameter_of(int term)
 	{
-		Eigen::Matrix<double, sphere_parameters, 2> unit = Eigen::Matrix<double, sphere_parameters, 2>::Zero();
-		unit.topRows<2>().setIdentity();
+		return term < centre_terms ? term : term == found_terms - 1 ? radius_parameter : term + 2;
+	}
+
+	// The columns of the normal matrix's inverse that belong to what is found.
+	Eigen::Matrix<double, sphere_parameters, found_terms> uncertainty() const
+	{
+		Eigen::Matrix<double, sphere_parameters, found_terms> unit;
+		for (int i = 0; i < found_terms; i++)
+			unit.col(i) = Parameters::Unit(parameter_of(i));
 		return solver_.solve(unit);
 	}
 
@@ -243,6 +252,20 @@ private:
 	double variance_ = 1; // of the residuals, over what the sensor's noise would make it
 };
 
+// What is found in the plane at a place there, to the picture and the table frame.
+FoundMatrix pixels_from_plane(const Camera &camera, const TangentPlane &plane, const Vector2 &at)
+{
+	FoundMatrix out = FoundMatrix::Zero();
+	const Vector2 uv = plane.to_pixel(camera, at);
+	for (int axis = 0; axis < 2; axis++)
+		out.col(axis).head<2>() = plane.to_pixel(camera, at + Vector2::Unit(axis)) - uv;
+	// A normal's third part is towards the camera, the plane's third axis away from it.
+	const Matrix3 turn = camera.R.transpose() * plane.frame.transpose() * Vector3(1, 1, -1).asDiagonal();
+	out.block<shading_terms, shading_terms>(centre_terms, centre_terms) = turn_light(turn);
+	out(found_terms - 1, found_terms - 1) = 1 / plane.frame(2, 2);
+	return out;
+}
+
 } // namespace
 
 bool locate_photometric(const LocateTask &task, pong_centre *centre)
@@ -263,20 +286,18 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 		return true; // the edges stand
 	if (!fit.explains())
 		return false;
-	SphereParameters found = fit.parameters();
-	const Vector2 at(found.u(), found.v());
-	const Vector2 uv = plane.to_pixel(camera, at);
-	Matrix2 jacobian;
-	for (int axis = 0; axis < 2; axis++)
-		jacobian.col(axis) = plane.to_pixel(camera, at + Vector2::Unit(axis)) - uv;
-	Matrix2 covariance = jacobian * fit.covariance() * jacobian.transpose() +
-			     streak_error_part * streak_error_part * task.streak * task.streak.transpose();
 	const bool covered = fit.covered();
-	if (covered)
-		covariance *= covered_factor;
-	*centre = make_centre(uv, found.radius() / plane.frame(2, 2), covariance);
+	FoundVector found = fit.found();
+	const FoundMatrix to_pixels = pixels_from_plane(camera, plane, found.head<2>());
+	const Vector2 uv = plane.to_pixel(camera, found.head<2>());
+	found = to_pixels * found;
+	FoundMatrix covariance = (covered ? covered_factor : 1) * to_pixels * fit.covariance() * to_pixels.transpose();
+	covariance.topLeftCorner<2, 2>() +=
+		streak_error_part * streak_error_part * task.streak * task.streak.transpose();
+	*centre = make_centre(uv, found[found_terms - 1], covariance.topLeftCorner<2, 2>());
 	centre->common = common_part;
 	centre->flags = (pixels.cut ? PONG_CENTRE_CUT : 0) | (covered ? PONG_CENTRE_COVERED : 0);
+	store_light(found, covariance, &centre->light);
 	return true;
 }
 

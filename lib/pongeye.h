@@ -427,12 +427,24 @@ enum {
 	PONG_CENTRE_COVERED = 2, /* something hides a part of it */
 };
 
+/* What the photometric method finds besides: the light on the ball, which the other camera sees, too. Nine terms of a
+ * polynomial in the surface's normal (table frame, grey levels), and the radius (px); their covariance, and that of
+ * u and v with them. pong_reconstruct takes the light of both centres as one. */
+enum { PONG_LIGHT_TERMS = 10 };
+typedef struct pong_light {
+	int known; /* 0: the method tells none */
+	float term[PONG_LIGHT_TERMS];
+	float covariance[PONG_LIGHT_TERMS][PONG_LIGHT_TERMS];
+	float with_centre[2][PONG_LIGHT_TERMS];
+} pong_light;
+
 typedef struct pong_centre {
 	double u, v;             /* px */
 	double radius;           /* px */
 	double covariance[2][2]; /* of u, v; px^2 */
 	double common;           /* correlation of its error with that of the other camera's centre of the same ball */
 	unsigned flags;          /* PONG_CENTRE_CUT | PONG_CENTRE_COVERED; 0: all of the ball is seen */
+	pong_light light;
 } pong_centre;
 
 /* Fit the centre of a detected ball: where the sphere's centre is seen in the middle of the exposure. `streak` is how

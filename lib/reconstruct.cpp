@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "camera.hpp"
+#include "light.hpp"
 #include "locate.hpp"
 
 namespace pong
@@ -49,6 +50,13 @@ Pair ideal_pair(const pong_camera camera[2], const double left_uv[2], const doub
 		 ideal(camera[PONG_RIGHT], right_uv[0], right_uv[1])}};
 }
 
+Pair ideal_pair(const pong_camera camera[2], const pong_centre centre[2])
+{
+	const double left_uv[2] = {centre[PONG_LEFT].u, centre[PONG_LEFT].v};
+	const double right_uv[2] = {centre[PONG_RIGHT].u, centre[PONG_RIGHT].v};
+	return ideal_pair(camera, left_uv, right_uv);
+}
+
 double epipolar_distance(const pong_camera camera[2], const Pair &pair)
 {
 	const Vector3 line = fundamental(camera) * pair.pixel[PONG_LEFT].homogeneous();
@@ -93,8 +101,8 @@ Eigen::Matrix<double, 2, 3> projection_jacobian(const Matrix34 &P, const Vector3
 using Matrix4 = Eigen::Matrix4d;
 using Jacobian = Eigen::Matrix<double, 4, 3>;
 
-// The information of both centres. With covariances L L', what they err alike is the part `common` of L_left L_right'.
-Matrix4 centres_information(const pong_centre centre[2])
+// Of both centres. With covariances L L', what they err alike is the part `common` of L_left L_right'.
+Matrix4 centres_covariance(const pong_centre centre[2])
 {
 	Matrix4 covariance;
 	Matrix2 root[2];
@@ -105,7 +113,7 @@ Matrix4 centres_information(const pong_centre centre[2])
 	const double common = std::min(centre[PONG_LEFT].common, centre[PONG_RIGHT].common);
 	covariance.topRightCorner<2, 2>() = common * root[PONG_LEFT] * root[PONG_RIGHT].transpose();
 	covariance.bottomLeftCorner<2, 2>() = covariance.topRightCorner<2, 2>().transpose();
-	return covariance.inverse();
+	return covariance;
 }
 
 // How both ideal pixels move with the point.
@@ -176,9 +184,8 @@ int pong_triangulate(const pong_camera camera[2], const double left_uv[2], const
 int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_centre *right,
 		     const pong_settings *settings, pong_point *point)
 {
-	const pong_centre centre[2] = {*left, *right};
-	const Pair pair = {
-		{ideal(rig->camera[PONG_LEFT], left->u, left->v), ideal(rig->camera[PONG_RIGHT], right->u, right->v)}};
+	pong_centre centre[2] = {*left, *right};
+	Pair pair = ideal_pair(rig->camera, centre);
 	Vector3 position;
 	const double reach =
 		settings->reconstruct.epipolar + settings->reconstruct.epipolar_size * (left->radius + right->radius);
@@ -188,8 +195,12 @@ int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_ce
 		if (!size_agrees(rig->camera[side], position, rig->ball.diameter, centre[side],
 				 settings->reconstruct.size))
 			return PONG_NONE;
-	const Matrix4 information = centres_information(centre);
-	if (settings->reconstruct.method == PONG_RECONSTRUCT_LIKELY)
+	const bool likely = settings->reconstruct.method == PONG_RECONSTRUCT_LIKELY;
+	Matrix4 covariance = centres_covariance(centre);
+	if (likely && join_lights(rig->camera, position, centre, &covariance))
+		pair = ideal_pair(rig->camera, centre);
+	const Matrix4 information = covariance.inverse();
+	if (likely)
 		position = most_likely(rig->camera, pair, information, position);
 	store(position, point->position);
 	store(point_covariance(rig->camera, information, position), point->covariance);

@@ -127,6 +127,24 @@ TEST(Locate, FindsTheOutlineByItsEdges)
 		}
 }
 
+// The light is the same for both cameras.
+TEST(Locate, TellsTheLightInTheTableFrame)
+{
+	for (const pong_side side : {PONG_LEFT, PONG_RIGHT}) {
+		const Sight sight(side, {0.15, 0.25, 1.0}, even_shades);
+		pong_centre centre;
+		ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &centre), 0.05);
+		ASSERT_TRUE(centre.light.known);
+		const Eigen::Vector3d rise(even_shades[1], even_shades[2], -even_shades[3]);
+		const Eigen::Vector3d expected = 200 * pong::Camera(sight.camera).R.transpose() * rise;
+		for (int axis = 0; axis < 3; axis++) {
+			const int term = 1 + axis;
+			EXPECT_NEAR(static_cast<double>(centre.light.term[term]), expected[axis],
+				    4 * std::sqrt(static_cast<double>(centre.light.covariance[term][term])));
+		}
+	}
+}
+
 // A lamp that flickers, or a shadow, changes what is behind the ball.
 TEST(Locate, BearsOtherLightBehindTheBall)
 {

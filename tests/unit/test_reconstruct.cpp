@@ -15,7 +15,7 @@ pong_centre centre_of(const pong_camera &camera, const double position[3], doubl
 {
 	double uv[2];
 	pong_project(&camera, position, uv);
-	return {uv[0], uv[1], pong_apparent_size(&camera, position, 0.040) / 2, {{su * su, 0}, {0, sv * sv}}, 0, 0};
+	return {uv[0], uv[1], pong_apparent_size(&camera, position, 0.040) / 2, {{su * su, 0}, {0, sv * sv}}, 0, 0, {}};
 }
 
 TEST(Reconstruct, TriangulatesWhatIsProjected)

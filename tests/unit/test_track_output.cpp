@@ -17,8 +17,8 @@ pong_sight sight_with_ball()
 {
 	pong_sight sight = {};
 	sight.has_ball = 1;
-	sight.ball.centre[PONG_LEFT] = {101.5, 102.25, 9, {}, 0, 0};
-	sight.ball.centre[PONG_RIGHT] = {91.5, 102.5, 9, {}, 0, 0};
+	sight.ball.centre[PONG_LEFT] = {101.5, 102.25, 9, {}, 0, 0, {}};
+	sight.ball.centre[PONG_RIGHT] = {91.5, 102.5, 9, {}, 0, 0, {}};
 	for (int i = 0; i < 3; i++) {
 		sight.ball.position[i] = i + 0.5;
 		sight.ball.velocity[i] = NAN;

@@ -109,7 +109,7 @@ private:
 		if (!find_by_contour(pictures, where, method.rival, uv))
 			return false;
 		const double variance = settings_.locate.sigma * settings_.locate.sigma;
-		*centre = {uv[0], uv[1], detection.size / 2, {{variance, 0}, {0, variance}}, 0, 0};
+		*centre = {uv[0], uv[1], detection.size / 2, {{variance, 0}, {0, variance}}, 0, 0, {}};
 		return true;
 	}
 
