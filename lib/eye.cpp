@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "camera.hpp"
+#include "closer.hpp"
 #include "doubt.hpp"
 #include "error.hpp"
 #include "region.hpp"
@@ -22,6 +23,10 @@ namespace
 
 const double doubt_alone = 2;         // allowed where no other place looks like a ball
 const double doubt_fresh = 3.5;       // and where it has just come: it may lie before something that moves
+const double doubt_guided = 1;          // at least, of centres that agree because one was looked for where the other tells
+const double doubt_most = 3.5;          // and where it continues a flight
+const double near_expected = 0.05;      // unless it is as near to where it is expected, m
+const double error_amid_others = 1.5;   // times what the fits tell, of a point amid what else moves
 const double first_speed = 20;        // of a ball that was seen but once, at most, m/s
 const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
 const double very_fresh = 20;         // or, where its centres agree less well, by so much
@@ -66,6 +71,11 @@ struct Match {
 	double doubt; // below 1: this is a ball and nothing else
 };
 
+struct BestMatch {
+	Match match;
+	double cost;
+};
+
 // Where the ball that is followed must be now.
 bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 {
@@ -91,17 +101,18 @@ bool match_places(const pong_eye &eye, const Side::Ball &left, const Side::Ball 
 	if (!pong_reconstruct(&eye.rig, match->left, match->right, &eye.settings, &match->point) ||
 	    !in_flight_space(eye.rig, eye.settings, match->point.position))
 		return false;
-	match->doubt = std::max(doubt_of_centres(eye.rig, left.centre, right.centre, match->point),
-				doubt_of_outline(std::min(left.shown, right.shown)));
+	match->doubt = std::max({doubt_of_centres(eye.rig, left.centre, right.centre, match->point),
+				 doubt_of_outline(std::min(left.shown, right.shown)),
+				 left.guided || right.guided ? doubt_guided : 0});
 	return true;
 }
 
-bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
+// The best match of two places that are not both among the first so many; if it is better than the best yet.
+void match_new(pong_eye &eye, const pong_state *expected, const int matched[2], BestMatch *best)
 {
 	Side &left = eye.side[PONG_LEFT], &right = eye.side[PONG_RIGHT];
-	double best_cost = std::numeric_limits<double>::infinity();
 	for (int l = 0; l < left.count(); l++)
-		for (int r = 0; r < right.count(); r++) {
+		for (int r = l < matched[PONG_LEFT] ? matched[PONG_RIGHT] : 0; r < right.count(); r++) {
 			Match match;
 			const bool located = left.is_located(l) && right.is_located(r);
 			if (!(located || may_be_one(eye.rig, left.found(l), right.found(r))) || !left.ball(l) ||
@@ -109,18 +120,29 @@ bool match_sides(pong_eye &eye, const pong_state *expected, Match *best)
 				continue;
 			const double cost =
 				cost_of(eye, expected, match, left.found(l).contrast + right.found(r).contrast);
-			if (cost < best_cost) {
-				best_cost = cost;
-				*best = match;
-			}
+			if (cost < best->cost)
+				*best = {match, cost};
 		}
-	return best_cost < std::numeric_limits<double>::infinity();
 }
 
 // Whether something moved, where was last looked, that is no ball.
 bool cluttered(const pong_eye &eye)
 {
 	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
+}
+
+bool match_sides(pong_eye &eye, const pong_state *expected, Match *match)
+{
+	BestMatch best = {{}, std::numeric_limits<double>::infinity()};
+	const int none[2] = {0, 0};
+	match_new(eye, expected, none, &best);
+	if (cluttered(eye) && !(best.cost < std::numeric_limits<double>::infinity() && best.match.doubt < 1)) {
+		const int matched[2] = {eye.side[PONG_LEFT].count(), eye.side[PONG_RIGHT].count()};
+		look_closer(eye.rig, eye.side, expected, eye.side_expected[PONG_LEFT].windowed);
+		match_new(eye, expected, matched, &best);
+	}
+	*match = best.match;
+	return best.cost < std::numeric_limits<double>::infinity();
 }
 
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
@@ -243,9 +265,29 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 	       pong_predict(&eye.rig, &now, &eye.settings, prediction);
 }
 
-void follow_ball(pong_eye &eye, const Match &match, pong_sight *sight)
+bool is_where_expected(const pong_eye &eye, const Match &match)
 {
-	if (push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
+	return eye.expecting &&
+	       (vector_of(match.point.position) - vector_of(eye.expected.position)).norm() < near_expected;
+}
+
+// Amid what else moves, what is behind a ball is not well known: its centres are less certain than their fits tell, and
+// the less so the less they agree.
+pong_point doubted(const pong_eye &eye, const Match &match)
+{
+	pong_point point = match.point;
+	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE || !cluttered(eye))
+		return point;
+	const double factor = error_amid_others * std::max(1.0, match.doubt * match.doubt);
+	Eigen::Map<Matrix3>(&point.covariance[0][0]) *= factor * factor;
+	return point;
+}
+
+void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
+{
+	const bool hopeless = cluttered(eye) && match.doubt > doubt_most && !is_where_expected(eye, match);
+	match.point = doubted(eye, match);
+	if (hopeless || push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
