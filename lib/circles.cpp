@@ -266,8 +266,7 @@ bool find_circle_near(const pong_image &image, double noise, pong_detection *pla
 	Circle best = search.measured(place->u, place->v, radius);
 	for (int down = -near_steps; down <= near_steps; down++)
 		for (int right = -near_steps; right <= near_steps; right++) {
-			const Circle circle =
-				search.measured(place->u + right * step, place->v + down * step, radius);
+			const Circle circle = search.measured(place->u + right * step, place->v + down * step, radius);
 			if (circle.score() > best.score())
 				best = circle;
 		}

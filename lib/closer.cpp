@@ -11,12 +11,12 @@ namespace pong
 namespace
 {
 
-const int anchors_most = 6;         // of each camera
-const double anchor_shown = 0.8;    // of its outline
-const double anchor_fresh = 12;     // grey levels
-const double depth_range = 0.08;    // the distance that a radius tells is known as well as that
-const int samples_most = 40;        // along the epipolar line
-const double sample = 1, fine = 0.25; // from one to the next, px
+const int anchors_most = 6;           // of each camera
+const double anchor_shown = 0.8;      // of its outline
+const double anchor_fresh = 12;       // grey levels
+const double depth_range = 0.08;      // the distance that a radius tells is known as well as that
+const int samples_most = 40;          // along the epipolar line
+const double coarse = 1, fine = 0.25; // from one to the next, px
 
 void look_where_expected(const pong_rig &rig, Side side[2], const pong_state &expected)
 {
@@ -28,6 +28,10 @@ void look_where_expected(const pong_rig &rig, Side side[2], const pong_state &ex
 					  pong_apparent_size(&camera, expected.position, rig.ball.diameter));
 	}
 }
+
+struct Range {
+	double least, most;
+};
 
 // A ball on the ray that one camera sees it on, as the other camera sees it.
 class OtherView
@@ -42,6 +46,18 @@ public:
 		double at_one[3];
 		position(1, at_one);
 		distance_ = pong_apparent_size(&rig.camera[anchored], at_one, rig.ball.diameter) / (2 * centre.radius);
+	}
+
+	// How many times the distance that its radius tells it can be away.
+	Range range(const Expected *expected) const
+	{
+		const Range by_radius = {1 - depth_range, 1 + depth_range};
+		if (!expected)
+			return by_radius;
+		const double *at = expected->state.position;
+		const double away = std::hypot(at[0] - origin_[0], at[1] - origin_[1], at[2] - origin_[2]);
+		return {std::max(by_radius.least, (away - expected->reach) / distance_),
+			std::min(by_radius.most, (away + expected->reach) / distance_)};
 	}
 
 	// At so many times the distance that its radius tells.
@@ -67,18 +83,18 @@ private:
 	double origin_[3], direction_[3], distance_;
 };
 
-// Where from `least` to `most` times the distance the other camera shows the strongest outline, every so many px.
-bool strongest(const OtherView &view, const Side &other, double least, double most, double step, double *factor,
+// Where in that range the other camera shows the strongest outline, in steps of so many px.
+bool strongest(const OtherView &view, const Side &other, const Range &range, double step, double *factor,
 	       pong_detection *found)
 {
 	pong_detection ends[2];
-	if (!view.place(least, &ends[0]) || !view.place(most, &ends[1]))
+	if (!(range.least < range.most) || !view.place(range.least, &ends[0]) || !view.place(range.most, &ends[1]))
 		return false;
 	const double length = std::hypot(ends[1].u - ends[0].u, ends[1].v - ends[0].v);
 	const int count = std::min(static_cast<int>(length / step) + 2, samples_most);
 	double best = 0;
 	for (int i = 0; i < count; i++) {
-		const double part = least + (most - least) * i / (count - 1);
+		const double part = range.least + (range.most - range.least) * i / (count - 1);
 		pong_detection place;
 		if (!view.place(part, &place))
 			continue;
@@ -93,15 +109,15 @@ bool strongest(const OtherView &view, const Side &other, double least, double mo
 	return best > 0;
 }
 
-void look_at_anchor(const pong_rig &rig, int anchored, const pong_centre &centre, Side &other)
+void look_at_anchor(const OtherView &view, const Range &range, Side &other)
 {
-	const OtherView view(rig, anchored, centre);
 	double factor;
 	pong_detection place;
-	if (!strongest(view, other, 1 - depth_range, 1 + depth_range, sample, &factor, &place))
+	if (!strongest(view, other, range, coarse, &factor, &place))
 		return;
-	const double pixel = depth_range / 8; // of the factor, about; TODO
-	if (strongest(view, other, factor - pixel, factor + pixel, fine, &factor, &place))
+	const double around = (range.most - range.least) / 8;
+	const Range near = {std::max(range.least, factor - around), std::min(range.most, factor + around)};
+	if (strongest(view, other, near, fine, &factor, &place))
 		other.look_at(place);
 }
 
@@ -112,18 +128,20 @@ bool is_fresh(const Side &side, const pong_centre &centre)
 
 } // namespace
 
-void look_closer(const pong_rig &rig, Side side[2], const pong_state *expected, bool followed)
+void look_closer(const pong_rig &rig, Side side[2], const Expected *expected, bool followed)
 {
 	if (expected)
-		look_where_expected(rig, side, *expected);
+		look_where_expected(rig, side, expected->state);
 	const int count[2] = {side[PONG_LEFT].count(), side[PONG_RIGHT].count()};
 	for (int anchored = 0; anchored < 2; anchored++) {
 		int anchors = 0;
 		for (int i = 0; i < count[anchored] && anchors < anchors_most; i++) {
 			const Side::Ball *ball = side[anchored].ball(i);
-			if (!ball || ball->shown < anchor_shown || !(followed || is_fresh(side[anchored], ball->centre)))
+			if (!ball || ball->shown < anchor_shown ||
+			    !(followed || is_fresh(side[anchored], ball->centre)))
 				continue;
-			look_at_anchor(rig, anchored, ball->centre, side[1 - anchored]);
+			const OtherView view(rig, anchored, ball->centre);
+			look_at_anchor(view, view.range(expected), side[1 - anchored]);
 			anchors++;
 		}
 	}

@@ -21,12 +21,13 @@ namespace pong
 namespace
 {
 
-const double doubt_alone = 2;         // allowed where no other place looks like a ball
-const double doubt_fresh = 3.5;       // and where it has just come: it may lie before something that moves
-const double doubt_guided = 1;          // at least, of centres that agree because one was looked for where the other tells
-const double doubt_most = 3.5;          // and where it continues a flight
-const double near_expected = 0.05;      // unless it is as near to where it is expected, m
-const double error_amid_others = 1.5;   // times what the fits tell, of a point amid what else moves
+const double doubt_alone = 2;       // allowed where no other place looks like a ball
+const double doubt_fresh = 3.5;     // and where it has just come: it may lie before something that moves
+const double doubt_guided = 1;      // at least, of centres that agree because one was looked for where the other tells
+const double doubt_most = 3.5;      // and where it continues a flight
+const double expected_reach = 0.08; // a doubtful ball is not farther from where it is expected, m,
+const double expected_sigmas = 4;   // and so many standard deviations
+const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
 const double first_speed = 20;        // of a ball that was seen but once, at most, m/s
 const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
 const double very_fresh = 20;         // or, where its centres agree less well, by so much
@@ -131,6 +132,15 @@ bool cluttered(const pong_eye &eye)
 	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
 }
 
+// How far from where it is expected the ball may be.
+double reach_of(const pong_state &expected)
+{
+	double variance = 0;
+	for (int axis = 0; axis < 3; axis++)
+		variance = std::max(variance, expected.covariance[axis][axis]);
+	return expected_reach + expected_sigmas * std::sqrt(variance);
+}
+
 bool match_sides(pong_eye &eye, const pong_state *expected, Match *match)
 {
 	BestMatch best = {{}, std::numeric_limits<double>::infinity()};
@@ -138,7 +148,9 @@ bool match_sides(pong_eye &eye, const pong_state *expected, Match *match)
 	match_new(eye, expected, none, &best);
 	if (cluttered(eye) && !(best.cost < std::numeric_limits<double>::infinity() && best.match.doubt < 1)) {
 		const int matched[2] = {eye.side[PONG_LEFT].count(), eye.side[PONG_RIGHT].count()};
-		look_closer(eye.rig, eye.side, expected, eye.side_expected[PONG_LEFT].windowed);
+		const Expected flight = {eye.expected, reach_of(eye.expected)};
+		const bool windowed = eye.side_expected[PONG_LEFT].windowed;
+		look_closer(eye.rig, eye.side, expected && windowed ? &flight : nullptr, windowed);
 		match_new(eye, expected, matched, &best);
 	}
 	*match = best.match;
@@ -265,10 +277,14 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 	       pong_predict(&eye.rig, &now, &eye.settings, prediction);
 }
 
-bool is_where_expected(const pong_eye &eye, const Match &match)
+// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
+bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
 {
-	return eye.expecting &&
-	       (vector_of(match.point.position) - vector_of(eye.expected.position)).norm() < near_expected;
+	if (trust != Trust::none)
+		return false;
+	if (!eye.expecting)
+		return match.doubt > doubt_most;
+	return (vector_of(match.point.position) - vector_of(eye.expected.position)).norm() > reach_of(eye.expected);
 }
 
 // Amid what else moves, what is behind a ball is not well known: its centres are less certain than their fits tell, and
@@ -285,9 +301,9 @@ pong_point doubted(const pong_eye &eye, const Match &match)
 
 void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 {
-	const bool hopeless = cluttered(eye) && match.doubt > doubt_most && !is_where_expected(eye, match);
+	const Trust trust = trust_of(eye, match);
 	match.point = doubted(eye, match);
-	if (hopeless || push_point(*eye.track, match.point, trust_of(eye, match)) == PONG_TRACK_REJECTED) {
+	if (is_hopeless(eye, match, trust) || push_point(*eye.track, match.point, trust) == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}

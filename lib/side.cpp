@@ -15,13 +15,13 @@ namespace pong
 namespace
 {
 
-const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
-const double faint_error = 0.1; // of its centre then, radii
+const double faint = 12;          // a ball of less contrast has no edges that can be located, grey levels
+const double faint_error = 0.1;   // of its centre then, radii
 const double guided_error = 0.08; // of a centre that only its outline tells, radii
-const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
-const double fresh_enough = 12; // of what has just come: the picture before shows what is behind it, grey levels
-const double around_ball = 12;  // what its location may look at, px
-const int located_at_once = 2;  // more are only located where the other camera sees something that agrees
+const double usual_noise = 2;     // of a pixel, standard deviation, grey levels
+const double fresh_enough = 12;   // of what has just come: the picture before shows what is behind it, grey levels
+const double around_ball = 12;    // what its location may look at, px
+const int located_at_once = 2;    // more are only located where the other camera sees something that agrees
 
 pong_region *make_region(const pong_rig &rig, pong_side side, const pong_settings &settings)
 {
