@@ -18,14 +18,14 @@ const double depth_range = 0.08;      // the distance that a radius tells is kno
 const int samples_most = 40;          // along the epipolar line
 const double coarse = 1, fine = 0.25; // from one to the next, px
 
-void look_where_expected(const pong_rig &rig, Side side[2], const pong_state &expected)
+void look_where_expected(const pong_rig &rig, Side side[2], const double expected[3])
 {
 	for (int i = 0; i < 2; i++) {
 		const pong_camera &camera = rig.camera[i];
 		double uv[2];
-		if (pong_project(&camera, expected.position, uv))
+		if (pong_project(&camera, expected, uv))
 			side[i].look_near(uv[0], uv[1],
-					  pong_apparent_size(&camera, expected.position, rig.ball.diameter));
+					  pong_apparent_size(&camera, expected, rig.ball.diameter));
 	}
 }
 
@@ -131,7 +131,7 @@ bool is_fresh(const Side &side, const pong_centre &centre)
 void look_closer(const pong_rig &rig, Side side[2], const Expected *expected, bool followed)
 {
 	if (expected)
-		look_where_expected(rig, side, expected->state);
+		look_where_expected(rig, side, expected->state.position);
 	const int count[2] = {side[PONG_LEFT].count(), side[PONG_RIGHT].count()};
 	for (int anchored = 0; anchored < 2; anchored++) {
 		int anchors = 0;

@@ -25,14 +25,17 @@ const double doubt_alone = 2;       // allowed where no other place looks like a
 const double doubt_fresh = 3.5;     // and where it has just come: it may lie before something that moves
 const double doubt_guided = 1;      // at least, of centres that agree because one was looked for where the other tells
 const double doubt_most = 3.5;      // and where it continues a flight
-const double expected_reach = 0.08; // a doubtful ball is not farther from where it is expected, m,
-const double expected_sigmas = 4;   // and so many standard deviations
+const double expected_reach = 0.06; // a doubtful ball is not farther from where it is expected, m,
+const double expected_sigmas = 2.5; // and so many standard deviations;
+const double usual_speed = 8, usual_speed_spread = 12; // or, of one that was seen but once, towards the robot, m/s
+const int doubtful_most = 8;                           // doubtful points in a row: that is an arm
 const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
 const double first_speed = 20;        // of a ball that was seen but once, at most, m/s
 const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
 const double very_fresh = 20;         // or, where its centres agree less well, by so much
 const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
-const double farthest_doubt = 2;      // it cannot be worse: the ball may be another one
+const double farthest_doubt = 2;      // it cannot be worse: the ball may be another one,
+const double farthest_doubt_unsure = 0.5; // the more so where the flight is not sure
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
@@ -52,6 +55,7 @@ struct pong_eye {
 	int64_t utime; // of the pair that is looked at
 
 	pong_point last; // of the flight
+	int doubtful;    // of its points, the last so many
 
 	// What the track makes expect of that pair: set before the two looks, which only read it.
 	bool expecting;
@@ -87,12 +91,13 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 
 // Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
 // brightest; at best the one of least doubt, near to where it is expected.
-double cost_of(const pong_eye &eye, const pong_state *expected, const Match &match, double contrast)
+double cost_of(const pong_eye &eye, const double *expected, const Match &match, double contrast)
 {
-	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected->position)).norm() : 0;
+	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected)).norm() : 0;
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return expected ? distance : -contrast;
-	return match.doubt + std::min(distance / doubtful_distance, farthest_doubt);
+	const double farthest = is_firm(*eye.track) ? farthest_doubt : farthest_doubt_unsure;
+	return match.doubt + std::min(distance / doubtful_distance, farthest);
 }
 
 // Two places that look like a ball: one ball, if their centres agree.
@@ -109,7 +114,7 @@ bool match_places(const pong_eye &eye, const Side::Ball &left, const Side::Ball 
 }
 
 // The best match of two places that are not both among the first so many; if it is better than the best yet.
-void match_new(pong_eye &eye, const pong_state *expected, const int matched[2], BestMatch *best)
+void match_new(pong_eye &eye, const double *expected, const int matched[2], BestMatch *best)
 {
 	Side &left = eye.side[PONG_LEFT], &right = eye.side[PONG_RIGHT];
 	for (int l = 0; l < left.count(); l++)
@@ -141,16 +146,33 @@ double reach_of(const pong_state &expected)
 	return expected_reach + expected_sigmas * std::sqrt(variance);
 }
 
-bool match_sides(pong_eye &eye, const pong_state *expected, Match *match)
+// Where the flight has the ball now: amid what else moves, a doubtful ball is nowhere else. One that was seen but once
+// comes to the robot, most likely.
+bool has_reach(const pong_eye &eye, Expected *flight)
+{
+	if (eye.expecting) {
+		*flight = {eye.expected, reach_of(eye.expected)};
+		return true;
+	}
+	if (pong_track_count(eye.track.get()) != 1)
+		return false;
+	const double seconds = static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
+	std::copy_n(eye.last.position, 3, flight->state.position);
+	flight->state.position[2] -= usual_speed * seconds;
+	flight->reach = expected_reach + usual_speed_spread * seconds;
+	return true;
+}
+
+bool match_sides(pong_eye &eye, const double *expected, Match *match)
 {
 	BestMatch best = {{}, std::numeric_limits<double>::infinity()};
 	const int none[2] = {0, 0};
 	match_new(eye, expected, none, &best);
 	if (cluttered(eye) && !(best.cost < std::numeric_limits<double>::infinity() && best.match.doubt < 1)) {
 		const int matched[2] = {eye.side[PONG_LEFT].count(), eye.side[PONG_RIGHT].count()};
-		const Expected flight = {eye.expected, reach_of(eye.expected)};
+		Expected flight;
 		const bool windowed = eye.side_expected[PONG_LEFT].windowed;
-		look_closer(eye.rig, eye.side, expected && windowed ? &flight : nullptr, windowed);
+		look_closer(eye.rig, eye.side, windowed && has_reach(eye, &flight) ? &flight : nullptr, windowed);
 		match_new(eye, expected, matched, &best);
 	}
 	*match = best.match;
@@ -230,7 +252,8 @@ bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
 	for (;;) {
 		for (int side = 0; side < 2; side++)
 			sight->detections[side] = eye.side[side].count();
-		if (match_sides(eye, eye.expecting ? &eye.expected : nullptr, match))
+		Expected flight;
+		if (match_sides(eye, has_reach(eye, &flight) ? flight.state.position : nullptr, match))
 			return true;
 		if (!sight->windowed)
 			return false;
@@ -282,9 +305,9 @@ bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
 {
 	if (trust != Trust::none)
 		return false;
-	if (!eye.expecting)
-		return match.doubt > doubt_most;
-	return (vector_of(match.point.position) - vector_of(eye.expected.position)).norm() > reach_of(eye.expected);
+	Expected flight;
+	return !has_reach(eye, &flight) || eye.doubtful >= doubtful_most ||
+	       (vector_of(match.point.position) - vector_of(flight.state.position)).norm() > flight.reach;
 }
 
 // Amid what else moves, what is behind a ball is not well known: its centres are less certain than their fits tell, and
@@ -308,6 +331,7 @@ void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 		return;
 	}
 	eye.last = match.point;
+	eye.doubtful = match.doubt < 1 ? 0 : eye.doubtful + 1;
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match);
@@ -344,6 +368,7 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 			    false,
 			    0,
 			    {},
+			    0,
 			    false,
 			    {},
 			    {}};

@@ -19,6 +19,7 @@ namespace
 
 const int confirmed = 3;             // points that make a second flight believed
 const int likely_confirmed = 2;      // and a first one amid what else moves
+const int firm_needed = 3;           // believed points that make a flight with doubtful ones sure
 const double gone = 0.1;             // a flight not seen for so long needs no such proof against it, s
 const double gone_certain = 0.03;    // the same where the point is certainly a ball
 const double expected_sigma = 0.015; // what no covariance knows of where a ball is expected, m
@@ -40,17 +41,18 @@ public:
 
 	void clear()
 	{
-		count_ = 0;
+		count_ = firm_ = 0;
 		halves_.clear();
 		estimate_.clear();
 	}
 
-	void add(const pong_point &point, const pong_rig &rig)
+	void add(const pong_point &point, const pong_rig &rig, Trust trust)
 	{
 		if (count_ == 0)
 			first_ = point.utime;
 		last_ = point;
 		count_++;
+		firm_ += trust != Trust::none;
 		if (method_ == PONG_STATE_FLIGHT)
 			estimate_.add(point);
 		else
@@ -71,6 +73,10 @@ public:
 	{
 		return count_;
 	}
+	int firm() const // of the points, those that were believed by themselves
+	{
+		return firm_;
+	}
 	int64_t first() const
 	{
 		return first_;
@@ -82,7 +88,7 @@ public:
 
 private:
 	pong_state_method method_;
-	int count_ = 0;
+	int count_ = 0, firm_ = 0;
 	int64_t first_ = 0;
 	pong_point last_ = {};
 	Halves halves_;
@@ -160,6 +166,8 @@ bool prefer_flight(const pong_track &track)
 int points_needed(const pong_track &track, const pong_point &point, Trust trust)
 {
 	const bool has_flight = track.flight->count() > 0;
+	if (has_flight && !is_firm(track))
+		return likely_confirmed;
 	const double unseen = has_flight ? seconds(track.flight->last().utime, point.utime) : INFINITY;
 	const bool is_gone = unseen > (trust == Trust::certain ? gone_certain : gone);
 	if (trust == Trust::likely)
@@ -174,8 +182,8 @@ pong_track_event push_other(pong_track &track, const pong_point &point, Trust tr
 		return PONG_TRACK_REJECTED;
 	if (other.count() > 0 && !fits(track, other, point))
 		other.clear();
-	other.add(point, track.rig);
-	if (other.count() < points_needed(track, point, trust) || prefer_flight(track))
+	other.add(point, track.rig, trust);
+	if (other.count() < points_needed(track, point, trust) || (is_firm(track) && prefer_flight(track)))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();
@@ -198,6 +206,11 @@ bool usable(const pong_point &point)
 
 } // namespace
 
+bool is_firm(const pong_track &track)
+{
+	return track.flight->firm() >= firm_needed || track.flight->firm() == track.flight->count();
+}
+
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust)
 {
 	if (!usable(point))
@@ -207,7 +220,7 @@ pong_track_event push_point(pong_track &track, const pong_point &point, Trust tr
 		return PONG_TRACK_REJECTED;
 	if (!continues(track, point, trust))
 		return push_other(track, point, trust);
-	track.flight->add(point, track.rig);
+	track.flight->add(point, track.rig, trust);
 	return PONG_TRACK_FOLLOWED;
 }
 

@@ -17,4 +17,7 @@ enum class Trust {
 // As pong_track_push, whose points are of usual trust.
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust);
 
+// Whether enough of the flight's points were believed by themselves.
+bool is_firm(const pong_track &track);
+
 } // namespace pong
