@@ -24,8 +24,7 @@ void look_where_expected(const pong_rig &rig, Side side[2], const double expecte
 		const pong_camera &camera = rig.camera[i];
 		double uv[2];
 		if (pong_project(&camera, expected, uv))
-			side[i].look_near(uv[0], uv[1],
-					  pong_apparent_size(&camera, expected, rig.ball.diameter));
+			side[i].look_near(uv[0], uv[1], pong_apparent_size(&camera, expected, rig.ball.diameter));
 	}
 }
 

@@ -29,12 +29,14 @@ const double expected_reach = 0.06; // a doubtful ball is not farther from where
 const double expected_sigmas = 2.5; // and so many standard deviations;
 const double usual_speed = 8, usual_speed_spread = 12; // or, of one that was seen but once, towards the robot, m/s
 const int doubtful_most = 8;                           // doubtful points in a row: that is an arm
-const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
-const double first_speed = 20;        // of a ball that was seen but once, at most, m/s
-const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
-const double very_fresh = 20;         // or, where its centres agree less well, by so much
-const double doubtful_distance = 0.1; // from where the ball is expected is as bad as that, m
-const double farthest_doubt = 2;      // it cannot be worse: the ball may be another one,
+const double error_amid_others = 1.5;                  // times what the fits tell, of a point amid what else moves
+const double first_speed = 20;                         // of a ball that was seen but once, at most, m/s
+const double fresh_enough = 12;           // what has just come differs by so much from what was there, grey levels,
+const double very_fresh = 20;             // or, where its centres agree less well, by so much
+const double off_little = 0.5;            // what agrees so well is a ball, though its outline shows less
+const double outline_part = 0.5;          // of the doubt that an outline makes: amid others it is covered easily
+const double doubtful_distance = 0.1;     // from where the ball is expected is as bad as that, m
+const double farthest_doubt = 2;          // it cannot be worse: the ball may be another one,
 const double farthest_doubt_unsure = 0.5; // the more so where the flight is not sure
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -74,6 +76,7 @@ struct Match {
 	const pong_centre *left, *right;
 	pong_point point;
 	double doubt; // below 1: this is a ball and nothing else
+	double off;   // the part of it that says that the centres are not those of one ball
 };
 
 struct BestMatch {
@@ -89,6 +92,12 @@ bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
 	       pong_predict_at(&eye.rig, &recent, utime, &eye.settings, expected);
 }
 
+// Whether something moved, where was last looked, that is no ball.
+bool cluttered(const pong_eye &eye)
+{
+	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
+}
+
 // Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
 // brightest; at best the one of least doubt, near to where it is expected.
 double cost_of(const pong_eye &eye, const double *expected, const Match &match, double contrast)
@@ -96,20 +105,21 @@ double cost_of(const pong_eye &eye, const double *expected, const Match &match, 
 	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected)).norm() : 0;
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
 		return expected ? distance : -contrast;
-	const double farthest = is_firm(*eye.track) ? farthest_doubt : farthest_doubt_unsure;
-	return match.doubt + std::min(distance / doubtful_distance, farthest);
+	const double farthest = !cluttered(eye) || is_firm(*eye.track) ? farthest_doubt : farthest_doubt_unsure;
+	const double unlike = cluttered(eye) ? match.off + outline_part * match.doubt : match.doubt;
+	return unlike + std::min(distance / doubtful_distance, farthest);
 }
 
 // Two places that look like a ball: one ball, if their centres agree.
 bool match_places(const pong_eye &eye, const Side::Ball &left, const Side::Ball &right, Match *match)
 {
-	*match = {&left.centre, &right.centre, {}, 0};
+	*match = {&left.centre, &right.centre, {}, 0, 0};
 	if (!pong_reconstruct(&eye.rig, match->left, match->right, &eye.settings, &match->point) ||
 	    !in_flight_space(eye.rig, eye.settings, match->point.position))
 		return false;
-	match->doubt = std::max({doubt_of_centres(eye.rig, left.centre, right.centre, match->point),
-				 doubt_of_outline(std::min(left.shown, right.shown)),
-				 left.guided || right.guided ? doubt_guided : 0});
+	const double guided = left.guided || right.guided ? doubt_guided : 0;
+	match->off = std::max(doubt_of_centres(eye.rig, left.centre, right.centre, match->point), guided);
+	match->doubt = std::max(match->off, doubt_of_outline(std::min(left.shown, right.shown)));
 	return true;
 }
 
@@ -129,12 +139,6 @@ void match_new(pong_eye &eye, const double *expected, const int matched[2], Best
 			if (cost < best->cost)
 				*best = {match, cost};
 		}
-}
-
-// Whether something moved, where was last looked, that is no ball.
-bool cluttered(const pong_eye &eye)
-{
-	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
 }
 
 // How far from where it is expected the ball may be.
@@ -191,7 +195,7 @@ double freshness(const pong_eye &eye, const Match &match)
 Trust trust_amid_others(const pong_eye &eye, const Match &match)
 {
 	const double fresh = match.doubt < doubt_fresh ? freshness(eye, match) : 0;
-	if (fresh > fresh_enough && match.doubt < 1)
+	if (fresh > fresh_enough && (match.doubt < 1 || match.off < off_little))
 		return Trust::certain;
 	if (fresh > very_fresh)
 		return Trust::usual;
@@ -303,7 +307,7 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 // Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
 bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
 {
-	if (trust != Trust::none)
+	if (trust != Trust::none || match.off < 1)
 		return false;
 	Expected flight;
 	return !has_reach(eye, &flight) || eye.doubtful >= doubtful_most ||
@@ -317,7 +321,7 @@ pong_point doubted(const pong_eye &eye, const Match &match)
 	pong_point point = match.point;
 	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE || !cluttered(eye))
 		return point;
-	const double factor = error_amid_others * std::max(1.0, match.doubt * match.doubt);
+	const double factor = error_amid_others * std::max(1.0, match.off * match.off);
 	Eigen::Map<Matrix3>(&point.covariance[0][0]) *= factor * factor;
 	return point;
 }
@@ -331,7 +335,7 @@ void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 		return;
 	}
 	eye.last = match.point;
-	eye.doubtful = match.doubt < 1 ? 0 : eye.doubtful + 1;
+	eye.doubtful = match.off < 1 ? 0 : eye.doubtful + 1;
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match);

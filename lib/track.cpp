@@ -166,7 +166,7 @@ bool prefer_flight(const pong_track &track)
 int points_needed(const pong_track &track, const pong_point &point, Trust trust)
 {
 	const bool has_flight = track.flight->count() > 0;
-	if (has_flight && !is_firm(track))
+	if (has_flight && trust == Trust::likely && !is_firm(track))
 		return likely_confirmed;
 	const double unseen = has_flight ? seconds(track.flight->last().utime, point.utime) : INFINITY;
 	const bool is_gone = unseen > (trust == Trust::certain ? gone_certain : gone);
@@ -183,7 +183,8 @@ pong_track_event push_other(pong_track &track, const pong_point &point, Trust tr
 	if (other.count() > 0 && !fits(track, other, point))
 		other.clear();
 	other.add(point, track.rig, trust);
-	if (other.count() < points_needed(track, point, trust) || (is_firm(track) && prefer_flight(track)))
+	if (other.count() < points_needed(track, point, trust) ||
+	    (prefer_flight(track) && (trust != Trust::likely || is_firm(track))))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();
@@ -208,7 +209,7 @@ bool usable(const pong_point &point)
 
 bool is_firm(const pong_track &track)
 {
-	return track.flight->firm() >= firm_needed || track.flight->firm() == track.flight->count();
+	return track.flight->firm() >= firm_needed;
 }
 
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust)
