@@ -19,6 +19,8 @@ namespace
 
 const int confirmed = 3;             // points that make a second flight believed
 const int likely_confirmed = 2;      // and a first one amid what else moves
+const double likely_gate = 0.05;     // how far from one such point the next one is, at most, m,
+const double likely_speed = 20;      // and m/s
 const int firm_needed = 3;           // believed points that make a flight with doubtful ones sure
 const double gone = 0.1;             // a flight not seen for so long needs no such proof against it, s
 const double gone_certain = 0.03;    // the same where the point is certainly a ball
@@ -42,6 +44,7 @@ public:
 	void clear()
 	{
 		count_ = firm_ = 0;
+		sure_ = true;
 		halves_.clear();
 		estimate_.clear();
 	}
@@ -53,6 +56,7 @@ public:
 		last_ = point;
 		count_++;
 		firm_ += trust != Trust::none;
+		sure_ = sure_ && trust != Trust::none && trust != Trust::likely;
 		if (method_ == PONG_STATE_FLIGHT)
 			estimate_.add(point);
 		else
@@ -77,6 +81,10 @@ public:
 	{
 		return firm_;
 	}
+	bool sure() const // whether each of its points could have begun a flight
+	{
+		return sure_;
+	}
 	int64_t first() const
 	{
 		return first_;
@@ -89,6 +97,7 @@ public:
 private:
 	pong_state_method method_;
 	int count_ = 0, firm_ = 0;
+	bool sure_ = true;
 	int64_t first_ = 0;
 	pong_point last_ = {};
 	Halves halves_;
@@ -143,7 +152,8 @@ bool fits(const pong_track &track, const Run &run, const pong_point &point)
 			return within_covariance(track, expected, point);
 	} else {
 		std::copy_n(run.last().position, 3, expected.position);
-		reach = track.settings.track.gate + track.settings.track.speed * waited;
+		reach = run.sure() ? track.settings.track.gate + track.settings.track.speed * waited
+				   : likely_gate + likely_speed * waited;
 	}
 	return (vector_of(point.position) - vector_of(expected.position)).norm() <= reach;
 }
@@ -180,11 +190,11 @@ pong_track_event push_other(pong_track &track, const pong_point &point, Trust tr
 	Run &other = *track.other;
 	if (trust == Trust::none || (other.count() > 0 && point.utime <= other.last().utime))
 		return PONG_TRACK_REJECTED;
-	if (other.count() > 0 && !fits(track, other, point))
+	const int needed = points_needed(track, point, trust);
+	if (other.count() > 0 && (!fits(track, other, point) || (needed == 1 && !other.sure())))
 		other.clear();
 	other.add(point, track.rig, trust);
-	if (other.count() < points_needed(track, point, trust) ||
-	    (prefer_flight(track) && (trust != Trust::likely || is_firm(track))))
+	if (other.count() < needed || (prefer_flight(track) && (trust != Trust::likely || is_firm(track))))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();
