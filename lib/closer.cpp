@@ -13,7 +13,7 @@ namespace
 
 const int anchors_most = 6;           // of each camera
 const double anchor_shown = 0.8;      // of its outline
-const double anchor_fresh = 12;       // grey levels
+const double fresh_enough = 12;       // grey levels
 const double depth_range = 0.08;      // the distance that a radius tells is known as well as that
 const int samples_most = 40;          // along the epipolar line
 const double coarse = 1, fine = 0.25; // from one to the next, px
@@ -108,7 +108,12 @@ bool strongest(const OtherView &view, const Side &other, const Range &range, dou
 	return best > 0;
 }
 
-void look_at_anchor(const OtherView &view, const Range &range, Side &other)
+bool is_fresh(const Side &side, double u, double v, double radius)
+{
+	return side.freshness(u, v, radius) > fresh_enough;
+}
+
+void look_at_anchor(const OtherView &view, const Range &range, bool followed, Side &other)
 {
 	double factor;
 	pong_detection place;
@@ -116,13 +121,9 @@ void look_at_anchor(const OtherView &view, const Range &range, Side &other)
 		return;
 	const double around = (range.most - range.least) / 8;
 	const Range near = {std::max(range.least, factor - around), std::min(range.most, factor + around)};
-	if (strongest(view, other, near, fine, &factor, &place))
+	if (strongest(view, other, near, fine, &factor, &place) &&
+	    (followed || is_fresh(other, place.u, place.v, place.size / 2)))
 		other.look_at(place);
-}
-
-bool is_fresh(const Side &side, const pong_centre &centre)
-{
-	return side.freshness(centre.u, centre.v, centre.radius) > anchor_fresh;
 }
 
 } // namespace
@@ -137,10 +138,11 @@ void look_closer(const pong_rig &rig, Side side[2], const Expected *expected, bo
 		for (int i = 0; i < count[anchored] && anchors < anchors_most; i++) {
 			const Side::Ball *ball = side[anchored].ball(i);
 			if (!ball || ball->shown < anchor_shown ||
-			    !(followed || is_fresh(side[anchored], ball->centre)))
+			    !(followed ||
+			      is_fresh(side[anchored], ball->centre.u, ball->centre.v, ball->centre.radius)))
 				continue;
 			const OtherView view(rig, anchored, ball->centre);
-			look_at_anchor(view, view.range(expected), side[1 - anchored]);
+			look_at_anchor(view, view.range(expected), followed, side[1 - anchored]);
 			anchors++;
 		}
 	}

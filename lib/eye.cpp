@@ -34,6 +34,7 @@ const double first_speed = 20;                         // of a ball that was see
 const double fresh_enough = 12;           // what has just come differs by so much from what was there, grey levels,
 const double very_fresh = 20;             // or, where its centres agree less well, by so much
 const double off_little = 0.5;            // what agrees so well is a ball, though its outline shows less
+const double slow = 2.5;                  // people's arms are, m/s
 const double outline_part = 0.5;          // of the doubt that an outline makes: amid others it is covered easily
 const double doubtful_distance = 0.1;     // from where the ball is expected is as bad as that, m
 const double farthest_doubt = 2;          // it cannot be worse: the ball may be another one,
@@ -195,10 +196,10 @@ double freshness(const pong_eye &eye, const Match &match)
 Trust trust_amid_others(const pong_eye &eye, const Match &match)
 {
 	const double fresh = match.doubt < doubt_fresh ? freshness(eye, match) : 0;
-	if (fresh > fresh_enough && (match.doubt < 1 || match.off < off_little))
+	if (fresh > fresh_enough && match.off < off_little)
 		return Trust::certain;
 	if (fresh > very_fresh)
-		return Trust::usual;
+		return match.doubt < 1 ? Trust::certain : Trust::usual;
 	// Hands are many, and one person's left is taken for another's right.
 	const bool alone = eye.side[PONG_LEFT].count() == 1 && eye.side[PONG_RIGHT].count() == 1;
 	return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
@@ -304,13 +305,20 @@ int predict(const pong_eye &eye, int64_t utime, pong_prediction *prediction)
 	       pong_predict(&eye.rig, &now, &eye.settings, prediction);
 }
 
+// What is followed amid others moves as slowly as an arm.
+bool is_slow(const pong_eye &eye)
+{
+	return cluttered(eye) && eye.expecting && eye.expected.has_spin && pong_track_count(eye.track.get()) > 2 &&
+	       std::hypot(eye.expected.velocity[0], eye.expected.velocity[1], eye.expected.velocity[2]) < slow;
+}
+
 // Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
 bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
 {
-	if (trust != Trust::none || match.off < 1)
+	if (trust != Trust::none || (match.off < 1 && !is_slow(eye)))
 		return false;
 	Expected flight;
-	return !has_reach(eye, &flight) || eye.doubtful >= doubtful_most ||
+	return is_slow(eye) || !has_reach(eye, &flight) || eye.doubtful >= doubtful_most ||
 	       (vector_of(match.point.position) - vector_of(flight.state.position)).norm() > flight.reach;
 }
 

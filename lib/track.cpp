@@ -18,7 +18,7 @@ namespace
 {
 
 const int confirmed = 3;             // points that make a second flight believed
-const int likely_confirmed = 2;      // and a first one amid what else moves
+const int likely_confirmed = 2;      // and a first one amid what else moves, or where the flight is not sure
 const double likely_gate = 0.05;     // how far from one such point the next one is, at most, m,
 const double likely_speed = 20;      // and m/s
 const int firm_needed = 3;           // believed points that make a flight with doubtful ones sure
