@@ -18,13 +18,13 @@ const double depth_range = 0.08;      // the distance that a radius tells is kno
 const int samples_most = 40;          // along the epipolar line
 const double coarse = 1, fine = 0.25; // from one to the next, px
 
-void look_where_expected(const pong_rig &rig, Side side[2], const double expected[3])
+void look_where_expected(const pong_rig &rig, Side *const side[2], const double expected[3])
 {
 	for (int i = 0; i < 2; i++) {
 		const pong_camera &camera = rig.camera[i];
 		double uv[2];
 		if (pong_project(&camera, expected, uv))
-			side[i].look_near(uv[0], uv[1], pong_apparent_size(&camera, expected, rig.ball.diameter));
+			side[i]->look_near(uv[0], uv[1], pong_apparent_size(&camera, expected, rig.ball.diameter));
 	}
 }
 
@@ -128,21 +128,22 @@ void look_at_anchor(const OtherView &view, const Range &range, bool followed, Si
 
 } // namespace
 
-void look_closer(const pong_rig &rig, Side side[2], const Expected *expected, bool followed)
+void look_closer(const pong_rig &rig, Side &left, Side &right, const Expected *expected, bool followed)
 {
+	Side *side[2] = {&left, &right};
 	if (expected)
 		look_where_expected(rig, side, expected->state.position);
-	const int count[2] = {side[PONG_LEFT].count(), side[PONG_RIGHT].count()};
+	const int count[2] = {left.count(), right.count()};
 	for (int anchored = 0; anchored < 2; anchored++) {
 		int anchors = 0;
 		for (int i = 0; i < count[anchored] && anchors < anchors_most; i++) {
-			const Side::Ball *ball = side[anchored].ball(i);
+			const Side::Ball *ball = side[anchored]->ball(i);
 			if (!ball || ball->shown < anchor_shown ||
 			    !(followed ||
-			      is_fresh(side[anchored], ball->centre.u, ball->centre.v, ball->centre.radius)))
+			      is_fresh(*side[anchored], ball->centre.u, ball->centre.v, ball->centre.radius)))
 				continue;
 			const OtherView view(rig, anchored, ball->centre);
-			look_at_anchor(view, view.range(expected), followed, side[1 - anchored]);
+			look_at_anchor(view, view.range(expected), followed, *side[1 - anchored]);
 			anchors++;
 		}
 	}

@@ -16,6 +16,6 @@ struct Expected {
 // well. Look again: where the ball is expected, unless that is null; and for each ball that one camera has located,
 // where the other one must see it. The sides get new places. Where no flight is followed, only what is fresh is looked
 // at.
-void look_closer(const pong_rig &rig, Side side[2], const Expected *expected, bool followed);
+void look_closer(const pong_rig &rig, Side &left, Side &right, const Expected *expected, bool followed);
 
 } // namespace pong

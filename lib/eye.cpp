@@ -177,7 +177,8 @@ bool match_sides(pong_eye &eye, const double *expected, Match *match)
 		const int matched[2] = {eye.side[PONG_LEFT].count(), eye.side[PONG_RIGHT].count()};
 		Expected flight;
 		const bool windowed = eye.side_expected[PONG_LEFT].windowed;
-		look_closer(eye.rig, eye.side, windowed && has_reach(eye, &flight) ? &flight : nullptr, windowed);
+		look_closer(eye.rig, eye.side[PONG_LEFT], eye.side[PONG_RIGHT],
+			    windowed && has_reach(eye, &flight) ? &flight : nullptr, windowed);
 		match_new(eye, expected, matched, &best);
 	}
 	*match = best.match;
