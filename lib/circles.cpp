@@ -28,6 +28,8 @@ const size_t refined_most = 3;     // and the second
 const double shown_first = 0.6;    // of the outline, before that
 const double radius_least = 3;     // px; smaller circles are everywhere
 const int refinements = 6;
+const double near_grid = 0.25; // a circle of known size near a known place: from one place tried to the next, radii,
+const int near_steps = 3;      // and how many to each side
 const double near_radii = 0.7; // circles with centres nearer than this are one
 
 // How much of a circle must show.
@@ -254,6 +256,23 @@ int find_circles(const pong_image &image, const Patch &patch, const Area &area, 
 			balls.add(fine);
 	}
 	return balls.count;
+}
+
+bool find_circle_near(const pong_image &image, double noise, pong_detection *place)
+{
+	const CircleSought sought = {{place->size, place->size, 0, 0}, noise, nullptr};
+	const CircleSearch search(image, sought);
+	const double radius = place->size / 2, step = near_grid * radius;
+	Circle best = search.measured(place->u, place->v, radius);
+	for (int down = -near_steps; down <= near_steps; down++)
+		for (int right = -near_steps; right <= near_steps; right++) {
+			const Circle circle = search.measured(place->u + right * step, place->v + down * step, radius);
+			if (circle.score() > best.score())
+				best = circle;
+		}
+	const Circle fine = search.refined(best, step / 2);
+	*place = {fine.u, fine.v, place->size, fine.outline.step};
+	return search.is_ball(fine, needed_there);
 }
 
 } // namespace pong

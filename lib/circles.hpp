@@ -19,4 +19,8 @@ struct CircleSought {
 int find_circles(const pong_image &image, const Patch &patch, const Area &area, const CircleSought &sought,
 		 pong_detection *found, int count, int capacity);
 
+// Move a place to where around it, at its size, the outline is strongest. Returns whether enough of it shows there for
+// a ball that something else says is there.
+bool find_circle_near(const pong_image &image, double noise, pong_detection *place);
+
 } // namespace pong

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circles.hpp"
 #include "detector.hpp"
 #include "error.hpp"
 #include "fresh.hpp"
@@ -14,12 +15,13 @@ namespace pong
 namespace
 {
 
-const double faint = 12;        // a ball of less contrast has no edges that can be located, grey levels
-const double faint_error = 0.1; // of its centre then, radii
-const double usual_noise = 2;   // of a pixel, standard deviation, grey levels
-const double fresh_enough = 12; // of what has just come: the picture before shows what is behind it, grey levels
-const double around_ball = 12;  // what its location may look at, px
-const int located_at_once = 2;  // more are only located where the other camera sees something that agrees
+const double faint = 12;          // a ball of less contrast has no edges that can be located, grey levels
+const double faint_error = 0.1;   // of its centre then, radii
+const double guided_error = 0.08; // of a centre that only its outline tells, radii
+const double usual_noise = 2;     // of a pixel, standard deviation, grey levels
+const double fresh_enough = 12;   // of what has just come: the picture before shows what is behind it, grey levels
+const double around_ball = 12;    // what its location may look at, px
+const int located_at_once = 2;    // more are only located where the other camera sees something that agrees
 
 pong_region *make_region(const pong_rig &rig, pong_side side, const pong_settings &settings)
 {
@@ -37,6 +39,17 @@ pong_detector *make_detector(const pong_region *region, const pong_settings &set
 	if (!detector)
 		throw Fault{PONG_ERROR_MEMORY, error.text};
 	return detector;
+}
+
+// The detection's own centre stands; its error is that part of the radius.
+pong_centre centre_of(const pong_detection &found, double error)
+{
+	pong_centre centre = {};
+	centre.u = found.u;
+	centre.v = found.v;
+	centre.radius = found.size / 2;
+	centre.covariance[0][0] = centre.covariance[1][1] = std::pow(error * centre.radius, 2);
+	return centre;
 }
 
 } // namespace
@@ -85,10 +98,43 @@ void Side::add_moved()
 {
 	const int places = count_;
 	for (int i = 0; i < places; i++)
-		if (freshness(found_[i].u, found_[i].v, found_[i].size / 2) > fresh_enough) {
-			before_moved_[count_] = true;
-			found_[count_++] = found_[i];
-		}
+		if (freshness(found_[i].u, found_[i].v, found_[i].size / 2) > fresh_enough)
+			add_place(found_[i], true);
+}
+
+void Side::add_place(const pong_detection &place, bool before_moved)
+{
+	if (count_ == balls_capacity)
+		return;
+	found_[count_] = place;
+	before_moved_[count_] = before_moved;
+	known_[count_++] = unknown;
+}
+
+void Side::look_near(double u, double v, double size)
+{
+	pong_detection place = {u, v, size, 0};
+	if (!find_circle_near(pictures_.earlier(0), usual_noise, &place))
+		return;
+	add_place(place, false);
+	if (freshness(place.u, place.v, size / 2) > fresh_enough)
+		add_place(place, true);
+}
+
+void Side::look_at(const pong_detection &place)
+{
+	add_place(place, false);
+	if (freshness(place.u, place.v, place.size / 2) > fresh_enough)
+		add_place(place, true);
+	add_place(place, false);
+	Ball &guided = balls_[count_ - 1];
+	guided = {centre_of(place, guided_error), outline(place.u, place.v, place.size / 2).shown, true};
+	known_[count_ - 1] = ball_there;
+}
+
+Outline Side::outline(double u, double v, double radius) const
+{
+	return measure_outline(pictures_.earlier(0), u, v, radius, usual_noise);
 }
 
 pong_pictures Side::moved_around(const pong_detection &found) const
@@ -135,12 +181,7 @@ bool Side::locate(const pong_detection &found, bool before_moved, pong_centre *c
 	if (settings_.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&camera_, &pictures, &found, streak_of(found, streak) ? streak : nullptr, &settings_,
 				   centre);
-	const double variance = std::pow(faint_error * found.size / 2, 2);
-	*centre = {};
-	centre->u = found.u;
-	centre->v = found.v;
-	centre->radius = found.size / 2;
-	centre->covariance[0][0] = centre->covariance[1][1] = variance;
+	*centre = centre_of(found, faint_error);
 	return true;
 }
 
@@ -148,11 +189,10 @@ const Side::Ball *Side::ball(int i)
 {
 	pong_centre &centre = balls_[i].centre;
 	if (known_[i] == unknown) {
+		balls_[i].guided = false;
 		known_[i] = locate(found_[i], before_moved_[i], &centre) ? ball_there : no_ball;
 		if (known_[i] == ball_there)
-			balls_[i].shown =
-				measure_outline(pictures_.earlier(0), centre.u, centre.v, centre.radius, usual_noise)
-					.shown;
+			balls_[i].shown = outline(centre.u, centre.v, centre.radius).shown;
 	}
 	return known_[i] == ball_there ? &balls_[i] : nullptr;
 }

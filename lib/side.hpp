@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "outline.hpp"
 #include "picture_ring.hpp"
 #include "pongeye.h"
 
@@ -62,12 +63,22 @@ public:
 	struct Ball {
 		pong_centre centre;
 		double shown;
+		bool guided; // the centre is only where the other camera tells that it must be
 	};
 	const Ball *ball(int i);
 	bool is_located(int i) const
 	{
 		return known_[i] == ball_there;
 	}
+
+	// Look at one more place, about where a ball of this size is expected.
+	void look_near(double u, double v, double size);
+
+	// Look at a place where the picture shows the outline of a ball that the other camera sees.
+	void look_at(const pong_detection &place);
+
+	// How much of a ball's outline shows there.
+	Outline outline(double u, double v, double radius) const;
 
 	// Whether something else moves where was looked.
 	bool cluttered() const;
@@ -90,7 +101,9 @@ private:
 	PictureRing pictures_;
 	Expectation expected_ = {};
 	int count_ = 0;
-	static const int balls_capacity = 2 * places_capacity; // before one background and another
+	void add_place(const pong_detection &place, bool before_moved);
+
+	static const int balls_capacity = 3 * places_capacity; // before one background and another, and looked near
 	pong_detection found_[balls_capacity];
 	bool before_moved_[balls_capacity];
 	Ball balls_[balls_capacity];

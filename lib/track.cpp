@@ -18,7 +18,10 @@ namespace
 {
 
 const int confirmed = 3;             // points that make a second flight believed
-const int likely_confirmed = 2;      // and a first one amid what else moves
+const int likely_confirmed = 2;      // and a first one amid what else moves, or where the flight is not sure
+const double likely_gate = 0.05;     // how far from one such point the next one is, at most, m,
+const double likely_speed = 20;      // and m/s
+const int firm_needed = 3;           // believed points that make a flight with doubtful ones sure
 const double gone = 0.1;             // a flight not seen for so long needs no such proof against it, s
 const double gone_certain = 0.03;    // the same where the point is certainly a ball
 const double expected_sigma = 0.015; // what no covariance knows of where a ball is expected, m
@@ -40,17 +43,20 @@ public:
 
 	void clear()
 	{
-		count_ = 0;
+		count_ = firm_ = 0;
+		sure_ = true;
 		halves_.clear();
 		estimate_.clear();
 	}
 
-	void add(const pong_point &point, const pong_rig &rig)
+	void add(const pong_point &point, const pong_rig &rig, Trust trust)
 	{
 		if (count_ == 0)
 			first_ = point.utime;
 		last_ = point;
 		count_++;
+		firm_ += trust != Trust::none;
+		sure_ = sure_ && trust != Trust::none && trust != Trust::likely;
 		if (method_ == PONG_STATE_FLIGHT)
 			estimate_.add(point);
 		else
@@ -77,6 +83,14 @@ public:
 	{
 		return count_;
 	}
+	int firm() const // of the points, those that were believed by themselves
+	{
+		return firm_;
+	}
+	bool sure() const // whether each of its points could have begun a flight
+	{
+		return sure_;
+	}
 	int64_t first() const
 	{
 		return first_;
@@ -88,7 +102,8 @@ public:
 
 private:
 	pong_state_method method_;
-	int count_ = 0;
+	int count_ = 0, firm_ = 0;
+	bool sure_ = true;
 	int64_t first_ = 0;
 	pong_point last_ = {};
 	Halves halves_;
@@ -143,7 +158,8 @@ bool fits(const pong_track &track, const Run &run, const pong_point &point)
 			return within_covariance(track, expected, point);
 	} else {
 		std::copy_n(run.last().position, 3, expected.position);
-		reach = track.settings.track.gate + track.settings.track.speed * waited;
+		reach = run.sure() ? track.settings.track.gate + track.settings.track.speed * waited
+				   : likely_gate + likely_speed * waited;
 	}
 	return (vector_of(point.position) - vector_of(expected.position)).norm() <= reach;
 }
@@ -166,6 +182,8 @@ bool prefer_flight(const pong_track &track)
 int points_needed(const pong_track &track, const pong_point &point, Trust trust)
 {
 	const bool has_flight = track.flight->count() > 0;
+	if (has_flight && trust == Trust::likely && !is_firm(track))
+		return likely_confirmed;
 	const double unseen = has_flight ? seconds(track.flight->last().utime, point.utime) : INFINITY;
 	const bool is_gone = unseen > (trust == Trust::certain ? gone_certain : gone);
 	if (trust == Trust::likely)
@@ -178,11 +196,12 @@ pong_track_event push_other(pong_track &track, const pong_point &point, Trust tr
 	Run &other = *track.other;
 	if (trust == Trust::none || (other.count() > 0 && point.utime <= other.last().utime))
 		return PONG_TRACK_REJECTED;
-	if (other.count() > 0 && !fits(track, other, point))
+	const int needed = points_needed(track, point, trust);
+	if (other.count() > 0 && (!fits(track, other, point) || (needed == 1 && !other.sure())))
 		other.clear();
-	other.add(point, track.rig);
+	other.add(point, track.rig, trust);
 	other.settle();
-	if (other.count() < points_needed(track, point, trust) || prefer_flight(track))
+	if (other.count() < needed || (prefer_flight(track) && (trust != Trust::likely || is_firm(track))))
 		return PONG_TRACK_REJECTED;
 	std::swap(track.flight, track.other);
 	track.other->clear();
@@ -205,6 +224,11 @@ bool usable(const pong_point &point)
 
 } // namespace
 
+bool is_firm(const pong_track &track)
+{
+	return track.flight->firm() >= firm_needed;
+}
+
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust)
 {
 	if (!usable(point))
@@ -215,7 +239,7 @@ pong_track_event push_point(pong_track &track, const pong_point &point, Trust tr
 		return PONG_TRACK_REJECTED;
 	if (!continues(track, point, trust))
 		return push_other(track, point, trust);
-	track.flight->add(point, track.rig);
+	track.flight->add(point, track.rig, trust);
 	return PONG_TRACK_FOLLOWED;
 }
 

@@ -19,4 +19,7 @@ enum class Trust {
 pong_track_event push_point(pong_track &track, const pong_point &point, Trust trust);
 void settle(pong_track &track);
 
+// Whether enough of the flight's points were believed by themselves.
+bool is_firm(const pong_track &track);
+
 } // namespace pong

@@ -127,6 +127,35 @@ TEST_F(Track, WhatIsLikelyABallNeedsASecondSight)
 	EXPECT_EQ(pong_track_count(track_.get()), 2);
 }
 
+// An arm that was likely a ball is not the point before a ball's first one.
+TEST_F(Track, ALikelyPointFarOffIsNoFirstOne)
+{
+	pong_point arm = points_[0];
+	arm.position[0] += 0.4;
+	EXPECT_EQ(pong::push_point(*track_, arm, pong::Trust::likely), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong::push_point(*track_, points_[1], pong::Trust::likely), PONG_TRACK_REJECTED);
+	EXPECT_EQ(pong::push_point(*track_, points_[2], pong::Trust::likely), PONG_TRACK_BEGUN);
+}
+
+// A flight of doubtful points gives way to two better ones elsewhere; one of good points needs three.
+TEST_F(Track, AnUnsureFlightGivesWaySoon)
+{
+	for (const pong::Trust trust : {pong::Trust::none, pong::Trust::likely}) {
+		pong_settings settings;
+		pong_settings_defaults(PONG_BEST, &settings);
+		track_.reset(pong_track_new(&rig_, &settings, nullptr));
+		pong_track_push(track_.get(), &points_[0]);
+		for (int i = 1; i < 6; i++)
+			ASSERT_EQ(pong::push_point(*track_, points_[i], trust), PONG_TRACK_FOLLOWED);
+		pong_point elsewhere[2] = {points_[6], points_[7]};
+		for (pong_point &point : elsewhere)
+			point.position[0] += 0.5;
+		EXPECT_EQ(pong::push_point(*track_, elsewhere[0], pong::Trust::likely), PONG_TRACK_REJECTED);
+		EXPECT_EQ(pong::push_point(*track_, elsewhere[1], pong::Trust::likely),
+			  trust == pong::Trust::none ? PONG_TRACK_BEGUN : PONG_TRACK_REJECTED);
+	}
+}
+
 // A ball that was taken away and put elsewhere.
 TEST_F(Track, ACertainBallElsewhereIsANewFlightSoon)
 {
