@@ -16,7 +16,8 @@ namespace
 class GuardedPicture
 {
 public:
-	explicit GuardedPicture(const pong_image &image) : image_(image), page_(static_cast<size_t>(sysconf(_SC_PAGESIZE)))
+	explicit GuardedPicture(const pong_image &image)
+		: image_(image), page_(static_cast<size_t>(sysconf(_SC_PAGESIZE)))
 	{
 		const size_t size = static_cast<size_t>(image.height) * static_cast<size_t>(image.stride);
 		EXPECT_EQ(size % page_, 0u);
