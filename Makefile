@@ -21,7 +21,7 @@ LIB := \
 	flight physics trajectory noise estimate halves track \
 	outlook predict \
 	window \
-	doubt side expect closer match eye
+	doubt side expect closer match trust eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := calibrate track predict simulate bench

@@ -1,6 +1,5 @@
 // The stages joined: push a stereo pair, get ball and prediction.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "match.hpp"
 #include "side.hpp"
 #include "track.hpp"
+#include "trust.hpp"
 
 namespace pong
 {
@@ -19,14 +19,6 @@ namespace pong
 namespace
 {
 
-const double doubt_alone = 2;         // allowed where no other place looks like a ball
-const double doubt_fresh = 3.5;       // and where it has just come: it may lie before something that moves
-const int doubtful_most = 8;          // doubtful points in a row: that is an arm
-const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
-const double fresh_enough = 12;       // what has just come differs by so much from what was there, grey levels,
-const double very_fresh = 20;         // or, where its centres agree less well, by so much
-const double off_little = 0.5;        // what agrees so well is a ball, though its outline shows less
-const double slow = 2.5;              // people's arms are, m/s
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
@@ -55,37 +47,6 @@ namespace pong
 
 namespace
 {
-
-// By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
-double freshness(const pong_eye &eye, const Match &match)
-{
-	const pong_centre &left = *match.left, &right = *match.right;
-	return std::min(eye.side[PONG_LEFT].freshness(left.u, left.v, left.radius),
-			eye.side[PONG_RIGHT].freshness(right.u, right.v, right.radius));
-}
-
-// Something else moves, too.
-Trust trust_amid_others(const pong_eye &eye, const Match &match)
-{
-	const double fresh = match.doubt < doubt_fresh ? freshness(eye, match) : 0;
-	if (fresh > fresh_enough && match.off < off_little)
-		return Trust::certain;
-	if (fresh > very_fresh)
-		return match.doubt < 1 ? Trust::certain : Trust::usual;
-	// Hands are many, and one person's left is taken for another's right.
-	const bool alone = eye.side[PONG_LEFT].count() == 1 && eye.side[PONG_RIGHT].count() == 1;
-	return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
-}
-
-// Where nothing else moves, what looks like a ball is one.
-Trust trust_of(const pong_eye &eye, const Match &match)
-{
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
-		return Trust::usual;
-	if (cluttered(eye.side))
-		return trust_amid_others(eye, match);
-	return match.doubt < 1 ? Trust::certain : Trust::usual;
-}
 
 // Both have looked into the window where the ball is expected; if it is not there, they look everywhere.
 bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
@@ -151,42 +112,14 @@ int predict(pong_eye &eye, int64_t utime, pong_prediction *prediction)
 	       pong_predict(&eye.rig, &now, &eye.settings, prediction);
 }
 
-// What is followed amid others moves as slowly as an arm.
-bool is_slow(const pong_eye &eye)
-{
-	return cluttered(eye.side) && eye.flight.expecting && eye.flight.expected.has_spin && eye.flight.points > 2 &&
-	       std::hypot(eye.flight.expected.velocity[0], eye.flight.expected.velocity[1],
-			  eye.flight.expected.velocity[2]) < slow;
-}
-
-// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
-bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
-{
-	if (trust != Trust::none || (match.off < 1 && !is_slow(eye)))
-		return false;
-	Expected expected;
-	return is_slow(eye) || !has_reach(eye.flight, &expected) || eye.flight.doubtful >= doubtful_most ||
-	       (vector_of(match.point.position) - vector_of(expected.state.position)).norm() > expected.reach;
-}
-
-// Amid what else moves, what is behind a ball is not well known: its centres are less certain than their fits tell, and
-// the less so the less they agree.
-pong_point doubted(const pong_eye &eye, const Match &match)
-{
-	pong_point point = match.point;
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE || !cluttered(eye.side))
-		return point;
-	const double factor = error_amid_others * std::max(1.0, match.off * match.off);
-	Eigen::Map<Matrix3>(&point.covariance[0][0]) *= factor * factor;
-	return point;
-}
-
 void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 {
-	const Trust trust = trust_of(eye, match);
-	match.point = doubted(eye, match);
-	const pong_track_event event =
-		is_hopeless(eye, match, trust) ? PONG_TRACK_REJECTED : push_point(*eye.track, match.point, trust);
+	const Trust trust = trust_of(match, eye.side, eye.settings);
+	if (cluttered(eye.side))
+		match.point = doubted(match);
+	const pong_track_event event = is_hopeless(match, trust, eye.flight)
+					       ? PONG_TRACK_REJECTED
+					       : push_point(*eye.track, match.point, trust);
 	if (event == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
