@@ -15,13 +15,14 @@ LIB := \
 	rig camera settings \
 	calibrate_linear calibrate_model calibrate_start calibrate_solve calibrate_error calibrate_refine calibrate \
 	region \
-	cells cell_memory conditions patch five_points blob outline fresh circles detect_difference detect_double detect \
+	cells cell_memory conditions cell_sums patch lit_cells five_points blob outline fresh circles \
+	detect_difference detect_double detect \
 	cone locate_gaussian locate_centroid locate_edges tangent sphere ball_pixels light locate_photometric locate \
 	reconstruct \
 	flight physics trajectory noise estimate halves track \
 	outlook predict \
 	window \
-	doubt side closer eye
+	doubt side expect closer match trust eye
 
 # The programs, each a folder of tools/, and the packages that each needs.
 PROGRAMS := calibrate track predict simulate bench

@@ -1,16 +1,11 @@
 // A closer look at what may be the ball amid what else moves.
 #pragma once
 
+#include "expect.hpp"
 #include "side.hpp"
 
 namespace pong
 {
-
-// Where the flight has the ball now, and how sure that is.
-struct Expected {
-	pong_state state;
-	double reach; // it is not farther from there, m
-};
 
 // Amid what else moves only a part of a ball may be seen as new, and what is seen too large or too small is not located
 // well. Look again: where the ball is expected, unless that is null; and for each ball that one camera has located,

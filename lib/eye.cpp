@@ -1,20 +1,17 @@
 // The stages joined: push a stereo pair, get ball and prediction.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <vector>
 
 #include "camera.hpp"
-#include "closer.hpp"
-#include "doubt.hpp"
 #include "error.hpp"
 #include "estimate.hpp"
-#include "region.hpp"
+#include "expect.hpp"
+#include "match.hpp"
 #include "side.hpp"
 #include "track.hpp"
-#include "window.hpp"
+#include "trust.hpp"
 
 namespace pong
 {
@@ -22,24 +19,6 @@ namespace pong
 namespace
 {
 
-const double doubt_alone = 2;       // allowed where no other place looks like a ball
-const double doubt_fresh = 3.5;     // and where it has just come: it may lie before something that moves
-const double doubt_guided = 1;      // at least, of centres that agree because one was looked for where the other tells
-const double doubt_most = 3.5;      // and where it continues a flight
-const double expected_reach = 0.06; // a doubtful ball is not farther from where it is expected, m,
-const double expected_sigmas = 2.5; // and so many standard deviations;
-const double usual_speed = 8, usual_speed_spread = 12; // or, of one that was seen but once, towards the robot, m/s
-const int doubtful_most = 8;                           // doubtful points in a row: that is an arm
-const double error_amid_others = 1.5;                  // times what the fits tell, of a point amid what else moves
-const double first_speed = 20;                         // of a ball that was seen but once, at most, m/s
-const double fresh_enough = 12;           // what has just come differs by so much from what was there, grey levels,
-const double very_fresh = 20;             // or, where its centres agree less well, by so much
-const double off_little = 0.5;            // what agrees so well is a ball, though its outline shows less
-const double slow = 2.5;                  // people's arms are, m/s
-const double outline_part = 0.5;          // of the doubt that an outline makes: amid others it is covered easily
-const double doubtful_distance = 0.1;     // from where the ball is expected is as bad as that, m
-const double farthest_doubt = 2;          // it cannot be worse: the ball may be another one,
-const double farthest_doubt_unsure = 0.5; // the more so where the flight is not sure
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Track = std::unique_ptr<pong_track, Deleter<pong_track_free>>;
@@ -58,12 +37,8 @@ struct pong_eye {
 	bool begun;
 	int64_t utime; // of the pair that is looked at
 
-	pong_point last; // of the flight
-	int doubtful;    // of its points, the last so many
-
 	// What the track makes expect of that pair: set before the two looks, which only read it.
-	bool expecting;
-	pong_state expected;
+	FollowedFlight flight;
 	Expectation side_expected[2];
 };
 
@@ -73,194 +48,15 @@ namespace pong
 namespace
 {
 
-// Two centres that are one ball.
-struct Match {
-	const pong_centre *left, *right;
-	pong_point point;
-	double doubt; // below 1: this is a ball and nothing else
-	double off;   // the part of it that says that the centres are not those of one ball
-};
-
-struct BestMatch {
-	Match match;
-	double cost;
-};
-
-// Where the ball that is followed must be now.
-bool expected_position(const pong_eye &eye, int64_t utime, pong_state *expected)
-{
-	pong_state recent;
-	return pong_track_recent_state(eye.track.get(), &recent) &&
-	       pong_predict_at(&eye.rig, &recent, utime, &eye.settings, expected);
-}
-
-// Whether something moved, where was last looked, that is no ball.
-bool cluttered(const pong_eye &eye)
-{
-	return eye.side[PONG_LEFT].cluttered() || eye.side[PONG_RIGHT].cluttered();
-}
-
-// Of all pairs of centres that can be one ball: by the paper's method the nearest to where it is expected, or else the
-// brightest; at best the one of least doubt, near to where it is expected.
-double cost_of(const pong_eye &eye, const double *expected, const Match &match, double contrast)
-{
-	const double distance = expected ? (vector_of(match.point.position) - vector_of(expected)).norm() : 0;
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
-		return expected ? distance : -contrast;
-	const double farthest = !cluttered(eye) || is_firm(*eye.track) ? farthest_doubt : farthest_doubt_unsure;
-	const double unlike = cluttered(eye) ? match.off + outline_part * match.doubt : match.doubt;
-	return unlike + std::min(distance / doubtful_distance, farthest);
-}
-
-// Two places that look like a ball: one ball, if their centres agree.
-bool match_places(const pong_eye &eye, const Side::Ball &left, const Side::Ball &right, Match *match)
-{
-	*match = {&left.centre, &right.centre, {}, 0, 0};
-	if (!pong_reconstruct(&eye.rig, match->left, match->right, &eye.settings, &match->point) ||
-	    !in_flight_space(eye.rig, eye.settings, match->point.position))
-		return false;
-	const double guided = left.guided || right.guided ? doubt_guided : 0;
-	match->off = std::max(doubt_of_centres(eye.rig, left.centre, right.centre, match->point), guided);
-	match->doubt = std::max(match->off, doubt_of_outline(std::min(left.shown, right.shown)));
-	return true;
-}
-
-// The best match of two places that are not both among the first so many; if it is better than the best yet.
-void match_new(pong_eye &eye, const double *expected, const int matched[2], BestMatch *best)
-{
-	Side &left = eye.side[PONG_LEFT], &right = eye.side[PONG_RIGHT];
-	for (int l = 0; l < left.count(); l++)
-		for (int r = l < matched[PONG_LEFT] ? matched[PONG_RIGHT] : 0; r < right.count(); r++) {
-			Match match;
-			const bool located = left.is_located(l) && right.is_located(r);
-			if (!(located || may_be_one(eye.rig, left.found(l), right.found(r))) || !left.ball(l) ||
-			    !right.ball(r) || !match_places(eye, *left.ball(l), *right.ball(r), &match))
-				continue;
-			const double cost =
-				cost_of(eye, expected, match, left.found(l).contrast + right.found(r).contrast);
-			if (cost < best->cost)
-				*best = {match, cost};
-		}
-}
-
-// How far from where it is expected the ball may be.
-double reach_of(const pong_state &expected)
-{
-	double variance = 0;
-	for (int axis = 0; axis < 3; axis++)
-		variance = std::max(variance, expected.covariance[axis][axis]);
-	return expected_reach + expected_sigmas * std::sqrt(variance);
-}
-
-// Where the flight has the ball now: amid what else moves, a doubtful ball is nowhere else. One that was seen but once
-// comes to the robot, most likely.
-bool has_reach(const pong_eye &eye, Expected *flight)
-{
-	if (eye.expecting) {
-		*flight = {eye.expected, reach_of(eye.expected)};
-		return true;
-	}
-	if (pong_track_count(eye.track.get()) != 1)
-		return false;
-	const double seconds = static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
-	std::copy_n(eye.last.position, 3, flight->state.position);
-	flight->state.position[2] -= usual_speed * seconds;
-	flight->reach = expected_reach + usual_speed_spread * seconds;
-	return true;
-}
-
-bool match_sides(pong_eye &eye, const double *expected, Match *match)
-{
-	BestMatch best = {{}, std::numeric_limits<double>::infinity()};
-	const int none[2] = {0, 0};
-	match_new(eye, expected, none, &best);
-	if (cluttered(eye) && !(best.cost < std::numeric_limits<double>::infinity() && best.match.doubt < 1)) {
-		const int matched[2] = {eye.side[PONG_LEFT].count(), eye.side[PONG_RIGHT].count()};
-		Expected flight;
-		const bool windowed = eye.side_expected[PONG_LEFT].windowed;
-		look_closer(eye.rig, eye.side[PONG_LEFT], eye.side[PONG_RIGHT],
-			    windowed && has_reach(eye, &flight) ? &flight : nullptr, windowed);
-		match_new(eye, expected, matched, &best);
-	}
-	*match = best.match;
-	return best.cost < std::numeric_limits<double>::infinity();
-}
-
-// By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
-double freshness(const pong_eye &eye, const Match &match)
-{
-	const pong_centre &left = *match.left, &right = *match.right;
-	return std::min(eye.side[PONG_LEFT].freshness(left.u, left.v, left.radius),
-			eye.side[PONG_RIGHT].freshness(right.u, right.v, right.radius));
-}
-
-// Something else moves, too.
-Trust trust_amid_others(const pong_eye &eye, const Match &match)
-{
-	const double fresh = match.doubt < doubt_fresh ? freshness(eye, match) : 0;
-	if (fresh > fresh_enough && match.off < off_little)
-		return Trust::certain;
-	if (fresh > very_fresh)
-		return match.doubt < 1 ? Trust::certain : Trust::usual;
-	// Hands are many, and one person's left is taken for another's right.
-	const bool alone = eye.side[PONG_LEFT].count() == 1 && eye.side[PONG_RIGHT].count() == 1;
-	return match.doubt < (alone ? doubt_alone : 1) ? Trust::likely : Trust::none;
-}
-
-// Where nothing else moves, what looks like a ball is one.
-Trust trust_of(const pong_eye &eye, const Match &match)
-{
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE)
-		return Trust::usual;
-	if (cluttered(eye))
-		return trust_amid_others(eye, match);
-	return match.doubt < 1 ? Trust::certain : Trust::usual;
-}
-
-// Of a flight that was seen but once, how far the ball can be from there is known. Amid people, where it has been is no
-// longer fresh: it is to be searched for near there.
-bool windows_around_first(pong_eye &eye)
-{
-	if (!cluttered(eye) || pong_track_count(eye.track.get()) != 1)
-		return false;
-	const double metres = first_speed * static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
-	bool windowed = true;
-	for (int side = 0; side < 2; side++)
-		windowed = windowed && window_around(eye.rig, static_cast<pong_side>(side), eye.last.position, metres,
-						     eye.settings, &eye.side_expected[side].window);
-	return windowed;
-}
-
-void expect(pong_eye &eye)
-{
-	eye.expecting = expected_position(eye, eye.utime, &eye.expected);
-	const pong_state &expected = eye.expected;
-	bool windowed = eye.expecting;
-	for (int side = 0; side < 2; side++) {
-		Expectation &there = eye.side_expected[side];
-		there.streaked =
-			eye.expecting && pong_streak(&eye.rig.camera[side], expected.position, expected.velocity,
-						     eye.settings.locate.exposure, there.streak);
-		there.seen_once = pong_track_count(eye.track.get()) == 1;
-		there.seconds = static_cast<double>(eye.utime - eye.last.utime) * 1e-6;
-		std::copy_n(eye.last.position, 3, there.position);
-		windowed = windowed &&
-			   window_around(eye.rig, static_cast<pong_side>(side), expected, eye.settings, &there.window);
-	}
-	windowed = windowed || (!eye.expecting && windows_around_first(eye));
-	for (Expectation &there : eye.side_expected)
-		there.windowed = windowed;
-}
-
 // Both have looked into the window where the ball is expected; if it is not there, they look everywhere.
 bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
 {
+	Matcher matcher(eye.rig, eye.settings, eye.flight, eye.side);
 	sight->windowed = eye.side_expected[PONG_LEFT].windowed;
 	for (;;) {
 		for (int side = 0; side < 2; side++)
 			sight->detections[side] = eye.side[side].count();
-		Expected flight;
-		if (match_sides(eye, has_reach(eye, &flight) ? flight.state.position : nullptr, match))
+		if (matcher.match_sides(sight->windowed, match))
 			return true;
 		if (!sight->windowed)
 			return false;
@@ -282,11 +78,12 @@ pong_outcome outcome_without_match(const pong_sight &sight)
 // much.
 Vector3 velocity_of(pong_eye &eye, const Match &match, pong_track_event event)
 {
-	if (event == PONG_TRACK_FOLLOWED && eye.expecting && eye.expected.has_spin)
-		return velocity_given(eye.expected, match.point);
+	if (event == PONG_TRACK_FOLLOWED && eye.flight.expecting && eye.flight.expected.has_spin)
+		return velocity_given(eye.flight.expected, match.point);
 	settle(*eye.track);
 	pong_state now;
-	return expected_position(eye, match.point.utime, &now) ? vector_of(now.velocity) : Vector3::Constant(nan);
+	return expected_state(eye.rig, *eye.track, match.point.utime, eye.settings, &now) ? vector_of(now.velocity)
+											  : Vector3::Constant(nan);
 }
 
 pong_ball make_ball(pong_eye &eye, const Match &match, pong_track_event event)
@@ -315,47 +112,20 @@ int predict(pong_eye &eye, int64_t utime, pong_prediction *prediction)
 	       pong_predict(&eye.rig, &now, &eye.settings, prediction);
 }
 
-// What is followed amid others moves as slowly as an arm.
-bool is_slow(const pong_eye &eye)
-{
-	return cluttered(eye) && eye.expecting && eye.expected.has_spin && pong_track_count(eye.track.get()) > 2 &&
-	       std::hypot(eye.expected.velocity[0], eye.expected.velocity[1], eye.expected.velocity[2]) < slow;
-}
-
-// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
-bool is_hopeless(const pong_eye &eye, const Match &match, Trust trust)
-{
-	if (trust != Trust::none || (match.off < 1 && !is_slow(eye)))
-		return false;
-	Expected flight;
-	return is_slow(eye) || !has_reach(eye, &flight) || eye.doubtful >= doubtful_most ||
-	       (vector_of(match.point.position) - vector_of(flight.state.position)).norm() > flight.reach;
-}
-
-// Amid what else moves, what is behind a ball is not well known: its centres are less certain than their fits tell, and
-// the less so the less they agree.
-pong_point doubted(const pong_eye &eye, const Match &match)
-{
-	pong_point point = match.point;
-	if (eye.settings.detect.method == PONG_DETECT_DIFFERENCE || !cluttered(eye))
-		return point;
-	const double factor = error_amid_others * std::max(1.0, match.off * match.off);
-	Eigen::Map<Matrix3>(&point.covariance[0][0]) *= factor * factor;
-	return point;
-}
-
 void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 {
-	const Trust trust = trust_of(eye, match);
-	match.point = doubted(eye, match);
-	const pong_track_event event =
-		is_hopeless(eye, match, trust) ? PONG_TRACK_REJECTED : push_point(*eye.track, match.point, trust);
+	const Trust trust = trust_of(match, eye.side, eye.settings);
+	if (cluttered(eye.side))
+		match.point = doubted(match);
+	const pong_track_event event = is_hopeless(match, trust, eye.flight)
+					       ? PONG_TRACK_REJECTED
+					       : push_point(*eye.track, match.point, trust);
 	if (event == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
-	eye.last = match.point;
-	eye.doubtful = match.off < 1 ? 0 : eye.doubtful + 1;
+	eye.flight.last = match.point;
+	eye.flight.doubtful = match.off < 1 ? 0 : eye.flight.doubtful + 1;
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match, event);
@@ -392,9 +162,6 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 			    false,
 			    0,
 			    {},
-			    0,
-			    false,
-			    {},
 			    {}};
 }
 
@@ -422,7 +189,8 @@ int pong_eye_expect(pong_eye *eye, int64_t utime)
 		side.forget();
 	settle(*eye->track);
 	pong_track_miss(eye->track.get(), utime);
-	expect(*eye);
+	look_ahead(eye->rig, *eye->track, utime, eye->settings, &eye->flight);
+	expect(eye->rig, eye->settings, eye->flight, cluttered(eye->side), eye->side_expected);
 	return PONG_FOUND;
 }
 

@@ -110,4 +110,10 @@ private:
 	enum { unknown, ball_there, no_ball } known_[balls_capacity];
 };
 
+// Whether something that is no ball moved, where either camera has last looked.
+inline bool cluttered(const Side side[2])
+{
+	return side[PONG_LEFT].cluttered() || side[PONG_RIGHT].cluttered();
+}
+
 } // namespace pong

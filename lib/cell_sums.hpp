@@ -1,0 +1,94 @@
+// A picture and two earlier ones in cells, and the cells' differences. What is remembered of the earlier ones is not
+// read again, and the older one is only read where it is asked for.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cell_memory.hpp"
+#include "conditions.hpp"
+#include "detector.hpp"
+
+namespace pong
+{
+
+// Have the memory send the pixels of an area of cells, and do something else meanwhile.
+void fetch_cells(const pong_image &image, const Area &cells);
+
+class CellSums
+{
+public:
+	// There is memory for so many pictures that are remembered.
+	CellSums(const pong_region &region, int remembered);
+
+	int columns() const
+	{
+		return columns_;
+	}
+	int rows() const
+	{
+		return rows_;
+	}
+
+	void remember(const pong_image &image)
+	{
+		memory_.remember(image);
+	}
+
+	// Tell the pictures, which must stay while they are looked at; then sum an area's cells of the current and the
+	// earlier one.
+	void set_pictures(const pong_pictures &pictures);
+	void sum(const Area &cells);
+
+	// Have the memory send what will be read first: of windows all, of whole pictures the samples.
+	void fetch_ahead(const Area &cells, bool windowed) const;
+
+	// The current picture against each of the earlier ones, here and there in the area that was summed.
+	void sample(const Area &cells, CellSamples samples[2]);
+
+	// See the earlier picture in today's light.
+	void scale_earlier(const Area &cells, int32_t gain);
+
+	// Parts of rows of an area that lie in the region.
+	template<class Visit> void for_each_strip(const Area &cells, Visit visit) const
+	{
+		for (int row = cells.v_begin; row < cells.v_end; row++) {
+			const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
+			if (!strip.empty())
+				visit(strip);
+		}
+	}
+
+	// The part of a strip, from its first to its last cell, that differs from the earlier picture by more than the
+	// threshold.
+	Area differing(const Area &strip, int32_t threshold);
+
+	// Have the memory send a strip of the older picture, unless it is remembered.
+	void fetch_older(const Area &strip) const;
+
+	// How much brighter each cell of a strip is than in the earlier picture, and than in the older one in today's
+	// light. The latter is null where no cell differs by more than the threshold.
+	const int16_t *change_to_earlier(const Area &strip);
+	const int16_t *change_to_older(const Area &strip, int32_t gain, int32_t threshold);
+
+private:
+	size_t cell(int column, int row) const
+	{
+		return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+	}
+	int subtract(const Area &strip);
+	const uint16_t *older_strip(const Area &strip);
+
+	int columns_, rows_;
+	std::vector<Area> strips_; // by row of cells: the columns of the region
+	CellMemory memory_;
+	pong_pictures pictures_ = {};
+	std::vector<uint16_t> now_, then_;         // cells of the current and the earlier picture,
+	const uint16_t *then_cells_ = nullptr;     // of which the latter may be remembered, and
+	const uint16_t *older_cells_ = nullptr;    // of the older one, null if they are not
+	std::vector<uint16_t> before_;             // one row of the older picture
+	std::vector<int> change_;                  // by row of cells, the greatest between current and earlier
+	std::vector<int16_t> to_then_, to_before_; // of one row
+};
+
+} // namespace pong

@@ -1,0 +1,21 @@
+// How far a ball that was found is to be believed. Where nothing else moves, what looks like a ball is one.
+#pragma once
+
+#include "expect.hpp"
+#include "match.hpp"
+#include "side.hpp"
+#include "track.hpp"
+
+namespace pong
+{
+
+Trust trust_of(const Match &match, const Side side[2], const pong_settings &settings);
+
+// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
+bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight);
+
+// The point as it is amid what else moves. What is behind the ball is not well known there: its centres are less
+// certain than their fits tell, and the less so the less they agree.
+pong_point doubted(const Match &match);
+
+} // namespace pong
