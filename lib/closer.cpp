@@ -13,6 +13,7 @@ namespace
 
 const int anchors_most = 6;           // of each camera
 const double anchor_shown = 0.8;      // of its outline
+const double same_anchor = 0.5;       // centres so near to each other are one ball's, found twice, px
 const double fresh_enough = 12;       // grey levels
 const double depth_range = 0.08;      // the distance that a radius tells is known as well as that
 const int samples_most = 40;          // along the epipolar line
@@ -108,6 +109,33 @@ bool strongest(const OtherView &view, const Side &other, const Range &range, dou
 	return best > 0;
 }
 
+// The balls of one camera that were looked for in the other one.
+class Anchors
+{
+public:
+	bool full() const
+	{
+		return count_ == anchors_most;
+	}
+
+	// The same ball is found before one background and before another.
+	bool has(const pong_centre &centre) const
+	{
+		return std::any_of(centre_, centre_ + count_, [&](const pong_centre *other) {
+			return std::hypot(other->u - centre.u, other->v - centre.v) < same_anchor;
+		});
+	}
+
+	void add(const pong_centre &centre)
+	{
+		centre_[count_++] = &centre;
+	}
+
+private:
+	const pong_centre *centre_[anchors_most];
+	int count_ = 0;
+};
+
 bool is_fresh(const Side &side, double u, double v, double radius)
 {
 	return side.freshness(u, v, radius) > fresh_enough;
@@ -135,16 +163,16 @@ void look_closer(const pong_rig &rig, Side &left, Side &right, const Expected *e
 		look_where_expected(rig, side, expected->state.position);
 	const int count[2] = {left.count(), right.count()};
 	for (int anchored = 0; anchored < 2; anchored++) {
-		int anchors = 0;
-		for (int i = 0; i < count[anchored] && anchors < anchors_most; i++) {
+		Anchors anchors;
+		for (int i = 0; i < count[anchored] && !anchors.full(); i++) {
 			const Side::Ball *ball = side[anchored]->ball(i);
-			if (!ball || ball->shown < anchor_shown ||
+			if (!ball || ball->shown < anchor_shown || anchors.has(ball->centre) ||
 			    !(followed ||
 			      is_fresh(*side[anchored], ball->centre.u, ball->centre.v, ball->centre.radius)))
 				continue;
 			const OtherView view(rig, anchored, ball->centre);
 			look_at_anchor(view, view.range(expected), followed, *side[1 - anchored]);
-			anchors++;
+			anchors.add(ball->centre);
 		}
 	}
 }
