@@ -133,11 +133,13 @@ pong_table read_table(const Document &document)
 }
 
 // Scale P so that its third row gives the depth in metres: its left part then is a unit vector along the optical axis.
+// One that is so already but for rounding stays to the last digit: a rig that is written and read again is the same.
 void normalise(const Document &document, const char *section, double P[3][4])
 {
 	Matrix34 matrix = matrix_of(P);
 	const double determinant = matrix.leftCols<3>().determinant();
-	const double scale = matrix.row(2).head<3>().norm();
+	const double rounding = 1e-12, norm = matrix.row(2).head<3>().norm();
+	const double scale = std::abs(norm - 1) < rounding ? 1 : norm;
 	if (!(scale > 0) || !(std::abs(determinant) > 1e-9 * std::pow(matrix.leftCols<3>().norm(), 3)))
 		document.refuse(section, "P", "is not a camera: its left 3x3 part cannot be inverted");
 	matrix /= determinant > 0 ? scale : -scale;

@@ -164,6 +164,21 @@ TEST(Rig, AnyCameraNameIsWrittenAndReadAgain)
 	EXPECT_STREQ(again.camera[PONG_LEFT].id, rig.camera[PONG_LEFT].id);
 }
 
+// To the last digit: P is scaled when it is read, and not again.
+TEST(Rig, AScaledCameraIsWrittenAsItIsRead)
+{
+	pong_rig rig = test_rig(), read, again;
+	pong_error error = {};
+	rig.camera[PONG_RIGHT].P[2][0] = 3;
+	char text[8192], first[8192], second[8192];
+	pong_rig_format(&rig, text, sizeof text);
+	ASSERT_EQ(pong_rig_parse(text, "text", &read, &error), PONG_FOUND) << error.text;
+	pong_rig_format(&read, first, sizeof first);
+	ASSERT_EQ(pong_rig_parse(first, "first", &again, &error), PONG_FOUND) << error.text;
+	pong_rig_format(&again, second, sizeof second);
+	EXPECT_STREQ(first, second);
+}
+
 // toml++ would end the program.
 TEST(Rig, ATableWithoutANameIsRefused)
 {
