@@ -89,6 +89,7 @@ public:
 private:
 	void locate_all();
 	void add_moved();
+	void add_place(const pong_detection &place, bool before_moved);
 	bool locate(const pong_detection &found, bool before_moved, pong_centre *centre) const;
 	bool streak_of(const pong_detection &found, double streak[3]) const;
 	pong_pictures compared() const;
@@ -101,8 +102,6 @@ private:
 	PictureRing pictures_;
 	Expectation expected_ = {};
 	int count_ = 0;
-	void add_place(const pong_detection &place, bool before_moved);
-
 	static const int balls_capacity = 3 * places_capacity; // before one background and another, and looked near
 	pong_detection found_[balls_capacity];
 	bool before_moved_[balls_capacity];

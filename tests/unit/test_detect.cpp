@@ -25,14 +25,13 @@ protected:
 	{
 		pong_settings_defaults(PONG_BEST, &settings_);
 		settings_.detect.method = GetParam();
-		region_ = pong_region_new(&rig_, PONG_LEFT, &settings_, nullptr);
-		detector_ = pong_detector_new(region_, &settings_, nullptr);
+		region_.reset(pong_region_new(&rig_, PONG_LEFT, &settings_, nullptr));
+		detector_ = new_detector();
 	}
 
-	~Detect() override
+	pong::OwnedDetector new_detector() const
 	{
-		pong_detector_free(detector_);
-		pong_region_free(region_);
+		return pong::OwnedDetector(pong_detector_new(region_.get(), &settings_, nullptr));
 	}
 
 	// Look at three pictures, with the ball only in the current one.
@@ -42,14 +41,14 @@ protected:
 		earlier.add_noise(noise, 2);
 		before.add_noise(noise, 3);
 		const pong_pictures pictures = {current.image(), {earlier.image(), before.image()}};
-		return pong_detect(detector_, &pictures, window, found_, capacity);
+		return pong_detect(detector_.get(), &pictures, window, found_, capacity);
 	}
 
 	static const int capacity = 8;
 	pong_rig rig_;
 	pong_settings settings_;
-	pong_region *region_;
-	pong_detector *detector_;
+	pong::OwnedRegion region_; // outlives the detector
+	pong::OwnedDetector detector_;
 	pong_detection found_[capacity];
 };
 
@@ -231,8 +230,7 @@ TEST_P(DoubleDifference, FindsTheSameOfWhatItRemembers)
 	const pong_window window = {280, 180, 80, 80, 8, 30};
 	for (const Picture *before : {&earlier, &dimmer})
 		for (const pong_window *where : {static_cast<const pong_window *>(nullptr), &window}) {
-			const pong::OwnedDetector reading(pong_detector_new(region_, &settings_, nullptr)),
-				remembering(pong_detector_new(region_, &settings_, nullptr));
+			const pong::OwnedDetector reading = new_detector(), remembering = new_detector();
 			const pong_pictures pictures = {current.image(), {before->image(), earlier.image()}};
 			pong_detection read[8], recalled[8];
 			const int count = pong_detect(reading.get(), &pictures, where, read, 8);

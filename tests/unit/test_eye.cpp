@@ -2,22 +2,15 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
-#include <memory>
 #include <thread>
 
 #include "allocations.hpp"
+#include "owned.hpp"
 #include "pictures.hpp"
 #include "rigs.hpp"
 
 namespace
 {
-
-struct Freed {
-	void operator()(pong_eye *eye) const
-	{
-		pong_eye_free(eye);
-	}
-};
 
 const double fps = 110;
 
@@ -126,7 +119,7 @@ private:
 
 	static constexpr double begin_[3] = {0.1, 0.25, 3.3}, speed_[3] = {0.2, 1.6, -6};
 	pong_rig rig_;
-	std::unique_ptr<pong_eye, Freed> eye_;
+	pong::OwnedEye eye_;
 	double position_[3], velocity_[3];
 	int frame_ = 0;
 };

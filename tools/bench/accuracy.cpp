@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "opencv_way.hpp"
 #include "options.hpp"
+#include "owned.hpp"
 #include "program.hpp"
 #include "studio.hpp"
 
@@ -176,20 +177,14 @@ public:
 		  track_((pong_settings_defaults(PONG_BEST, &settings_), pong_track_new(&rig, &settings_, nullptr)))
 	{
 	}
-	Follower(const Follower &) = delete;
-
-	~Follower()
-	{
-		pong_track_free(track_);
-	}
 
 	// False where too little was seen to know.
 	bool expect(double time, const pong_detection detections[2], double streak[2][3]) const
 	{
 		pong_state recent, now;
-		if (pong_track_count(track_) == 1)
+		if (pong_track_count(track_.get()) == 1)
 			return expect_since(time, detections, streak);
-		if (!pong_track_recent_state(track_, &recent) ||
+		if (!pong_track_recent_state(track_.get(), &recent) ||
 		    !pong_predict_at(&rig_, &recent, utime_of(time), &settings_, &now))
 			return false;
 		for (int side = 0; side < 2; side++)
@@ -213,7 +208,7 @@ public:
 		if (!pong_reconstruct(&rig_, &centre[PONG_LEFT], &centre[PONG_RIGHT], &settings_, &point))
 			return;
 		point.utime = utime_of(shot.time);
-		pong_track_push(track_, &point);
+		pong_track_push(track_.get(), &point);
 		last_ = point;
 	}
 
@@ -236,7 +231,7 @@ private:
 	const pong_rig &rig_;
 	double exposure_;
 	pong_settings settings_;
-	pong_track *track_;
+	pong::OwnedTrack track_;
 	pong_point last_ = {};
 };
 

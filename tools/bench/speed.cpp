@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "opencv_way.hpp"
 #include "options.hpp"
+#include "owned.hpp"
 #include "program.hpp"
 #include "studio.hpp"
 
@@ -74,24 +75,15 @@ uint64_t read_pixels(const std::vector<uint8_t> &pixels)
 
 struct Eyes {
 	pong_settings settings;
-	pong_region *region[2];
-	pong_detector *detector[2];
+	pong::OwnedRegion region[2]; // outlive the detectors
+	pong::OwnedDetector detector[2];
 
 	explicit Eyes(const pong_rig &rig)
 	{
 		pong_settings_defaults(PONG_BEST, &settings);
 		for (int side = 0; side < 2; side++) {
-			region[side] = pong_region_new(&rig, static_cast<pong_side>(side), &settings, nullptr);
-			detector[side] = pong_detector_new(region[side], &settings, nullptr);
-		}
-	}
-	Eyes(const Eyes &) = delete;
-
-	~Eyes()
-	{
-		for (int side = 0; side < 2; side++) {
-			pong_detector_free(detector[side]);
-			pong_region_free(region[side]);
+			region[side].reset(pong_region_new(&rig, static_cast<pong_side>(side), &settings, nullptr));
+			detector[side].reset(pong_detector_new(region[side].get(), &settings, nullptr));
 		}
 	}
 };
@@ -120,7 +112,7 @@ public:
 			for (int side = 0; side < 2; side++) {
 				const pong_pictures pictures = shot.pictures(static_cast<pong_side>(side));
 				for (const pong_image &earlier : pictures.earlier)
-					pong_detector_remember(eyes_.detector[side], &earlier);
+					pong_detector_remember(eyes_.detector[side].get(), &earlier);
 			}
 		for (const Eigen::Vector3d &place : ring_.places) {
 			windows_.emplace_back();
@@ -158,8 +150,8 @@ public:
 		for (size_t side = 0; side < 2; side++) {
 			const pong_pictures pictures = ring_.shots[i].pictures(static_cast<pong_side>(side));
 			found_[side] =
-				pong_detect(eyes_.detector[side], &pictures, windowed ? &windows_[i][side] : nullptr,
-					    detections_[side], capacity);
+				pong_detect(eyes_.detector[side].get(), &pictures,
+					    windowed ? &windows_[i][side] : nullptr, detections_[side], capacity);
 		}
 	}
 
