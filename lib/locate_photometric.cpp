@@ -31,7 +31,7 @@ const double curved_prior = 8, curved_prior_part = 0.15;
 const double background_prior = 0.15; // standard deviation of the background's factor and of its slopes
 const double noise_part = 0.45;       // of the fit's covariance, which holds for a true model, and
 const double patch_part = 2.9; // of the patches', by which the normalised squared errors average 2 (docs/locate.md)
-const double streak_error_part = 0.008; // of a streak, along it: the velocity is not known exactly
+const double streak_error_part = 0.006; // of a streak, along it: the velocity is not known exactly
 const double kept_least = 0.5;          // of a sector's outline, by the robust weights, where nothing covers it
 const int covered_least = 3;            // sectors of a ball that something covers
 const double covered_factor = 4;        // of the covariance then

@@ -116,6 +116,19 @@ Matrix4 centres_covariance(const pong_centre centre[2])
 	return covariance;
 }
 
+// A rig is never calibrated so well that the centres of one ball lie on each other's epipolar lines to a hundredth of a
+// pixel, as they are found. Were that distance taken for an error of the centres, it would move the point in depth by
+// as much as the centres' covariances say that u goes with v. So what is across the epipolar lines may differ by
+// `distance` (standard deviation) for the rig's sake.
+Matrix4 rig_covariance(const pong_camera camera[2], const Pair &pair, double distance)
+{
+	const Matrix3 F = fundamental(camera);
+	Eigen::Vector4d across;
+	across << (F.transpose() * pair.pixel[PONG_RIGHT].homogeneous()).head<2>().normalized(),
+		(F * pair.pixel[PONG_LEFT].homogeneous()).head<2>().normalized();
+	return distance * distance / 4 * across * across.transpose();
+}
+
 // How both ideal pixels move with the point.
 Jacobian pair_jacobian(const pong_camera camera[2], const Vector3 &position)
 {
@@ -199,6 +212,7 @@ int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_ce
 	Matrix4 covariance = centres_covariance(centre);
 	if (likely && join_lights(rig->camera, position, centre, &covariance))
 		pair = ideal_pair(rig->camera, centre);
+	covariance += rig_covariance(rig->camera, pair, settings->reconstruct.epipolar);
 	const Matrix4 information = covariance.inverse();
 	if (likely)
 		position = most_likely(rig->camera, pair, information, position);

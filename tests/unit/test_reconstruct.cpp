@@ -71,6 +71,29 @@ TEST(Reconstruct, CovarianceIsTrue)
 	expect_true_covariance(0.5);
 }
 
+// Where u of a centre errs with v, a rig that puts the centres 0.7 px off each other's epipolar lines must not move the
+// point in depth.
+TEST(Reconstruct, WhatTheRigErrsAcrossTheEpipolarLinesMovesNoDepth)
+{
+	const pong_rig rig = test_rig();
+	pong_settings settings;
+	pong_settings_defaults(PONG_BEST, &settings);
+	double depth[2];
+	for (int tilted = 0; tilted < 2; tilted++) {
+		pong_centre centre[2];
+		for (int side = 0; side < 2; side++) {
+			centre[side] = centre_of(rig.camera[side], place, 0.05, 0.05);
+			const double with = tilted ? 0.8 * 0.05 * 0.05 : 0;
+			centre[side].covariance[0][1] = centre[side].covariance[1][0] = with;
+		}
+		centre[PONG_RIGHT].v += 0.7;
+		pong_point point;
+		ASSERT_EQ(pong_reconstruct(&rig, &centre[0], &centre[1], &settings, &point), PONG_FOUND);
+		depth[tilted] = point.position[2];
+	}
+	EXPECT_NEAR(depth[1], depth[0], 1e-4);
+}
+
 TEST(Reconstruct, RefusesWhatIsNotOneBall)
 {
 	const pong_rig rig = test_rig();
