@@ -45,6 +45,12 @@ public:
 		pictures_.forget();
 	}
 
+	// Whether the pair that is looked at has its picture.
+	bool has_picture() const
+	{
+		return pictures_.has_newest();
+	}
+
 	// Look at the newest picture.
 	void look(const Expectation &expected);
 
