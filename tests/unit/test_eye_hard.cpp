@@ -95,6 +95,20 @@ TEST(EyeHard, TellsWhyThereIsNoBall)
 	EXPECT_EQ(scene.sight.outcome, PONG_MISMATCH);
 }
 
+// Where the ball was in the pictures that are compared, nothing is seen.
+TEST(EyeHard, SeesNothingWhereABallHasBeen)
+{
+	Scene scene(PONG_BEST);
+	for (int i = 0; i < 2 * gap; i++)
+		scene.push(false);
+	scene.restart();
+	EXPECT_EQ(scene.push_many(5), 5);
+	for (int i = 0; i < 3 * gap; i++) {
+		scene.push(false);
+		EXPECT_EQ(scene.sight.outcome, PONG_NOTHING) << i;
+	}
+}
+
 // Another ball flies away beside the one that comes: both are seen, one flight is followed.
 TEST(EyeHard, FollowsOneOfTwoBallsWithoutJumping)
 {
