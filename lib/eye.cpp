@@ -130,8 +130,7 @@ void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
-	eye.flight.last = match.point;
-	eye.flight.doubtful = match.off < 1 ? 0 : eye.flight.doubtful + 1;
+	count_point(match, event, &eye.flight);
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match, event);
