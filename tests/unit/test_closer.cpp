@@ -55,4 +55,25 @@ TEST_F(Closer, OneCameraTellsTheOther)
 	EXPECT_LT(nearest(PONG_RIGHT), 1);
 }
 
+// There is room for so many places: those of the first ones stay.
+TEST_F(Closer, WhatIsTooMuchIsLeftOut)
+{
+	pong_detection ball = left_;
+	ball.contrast = 100;
+	pong::Side &left = two_[PONG_LEFT];
+	int count;
+	do {
+		count = left.count();
+		left.look_at(ball);
+	} while (left.count() > count);
+	pong_detection elsewhere = ball;
+	elsewhere.u += 100;
+	left.look_at(elsewhere);
+	EXPECT_EQ(left.count(), count);
+	for (int i = 0; i < count; i++) {
+		ASSERT_TRUE(left.ball(i)) << i;
+		EXPECT_NEAR(left.ball(i)->centre.u, ball.u, 1) << i;
+	}
+}
+
 } // namespace
