@@ -125,9 +125,12 @@ void Side::look_near(double u, double v, double size)
 
 void Side::look_at(const pong_detection &place)
 {
-	add_place(place, false);
-	if (freshness(place.u, place.v, place.size / 2) > fresh_enough)
-		add_place(place, true);
+	// Of a faint outline nothing is located: where it was looked for would stand as if it had been found there.
+	if (place.contrast >= faint) {
+		add_place(place, false);
+		if (freshness(place.u, place.v, place.size / 2) > fresh_enough)
+			add_place(place, true);
+	}
 	if (!add_place(place, false))
 		return;
 	Ball &guided = balls_[count_ - 1];
