@@ -230,6 +230,33 @@ TEST(EyeHard, FlagsABallThatTheBorderCuts)
 	EXPECT_GE(cut, 2);
 }
 
+// A dark brand, off the ball's middle, and dots: they cost little.
+TEST(EyeHard, FollowsABrandedAndADottedBall)
+{
+	for (const bool dotted : {false, true}) {
+		Scene scene(PONG_BEST);
+		scene.before = [&](Picture &picture, int side) {
+			double uv[2];
+			pong_project(&scene.rig().camera[side], scene.position(), uv);
+			const double radius =
+				pong_apparent_size(&scene.rig().camera[side], scene.position(), 0.040) / 2;
+			for (int i = 0; i < 6 && dotted; i++)
+				picture.draw_ball(uv[0] + 0.6 * radius * std::cos(i * M_PI / 3),
+						  uv[1] + 0.6 * radius * std::sin(i * M_PI / 3), 0.12 * radius, 90);
+			if (!dotted)
+				picture.draw_ball(uv[0] + 0.3 * radius, uv[1] - 0.2 * radius, 0.3 * radius, 60);
+		};
+		scene.push(false);
+		const double begin[3] = {0.1, 0.25, 2}, speed[3] = {0.1, 1.6, -2};
+		scene.serve(begin, speed);
+		for (int i = 0; i < 30; i++) {
+			ASSERT_EQ(scene.push(true), PONG_FOUND) << i;
+			EXPECT_EQ(scene.sight.ball.track, 1);
+			EXPECT_LT(scene.error_to_truth(), 0.02) << i << dotted;
+		}
+	}
+}
+
 // It falls behind a racket that rests in front of it, and comes out below.
 TEST(EyeHard, FollowsABallThatIsPartlyCovered)
 {
