@@ -68,6 +68,12 @@ bool find_ball(pong_eye &eye, pong_sight *sight, Match *match)
 	}
 }
 
+// A picture that was refused is none of the pair.
+bool has_both_pictures(const pong_eye &eye)
+{
+	return eye.side[PONG_LEFT].has_picture() && eye.side[PONG_RIGHT].has_picture();
+}
+
 pong_outcome outcome_without_match(const pong_sight &sight)
 {
 	const bool left = sight.detections[PONG_LEFT] > 0, right = sight.detections[PONG_RIGHT] > 0;
@@ -124,8 +130,7 @@ void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 		sight->outcome = PONG_REJECTED;
 		return;
 	}
-	eye.flight.last = match.point;
-	eye.flight.doubtful = match.off < 1 ? 0 : eye.flight.doubtful + 1;
+	count_point(match, event, &eye.flight);
 	sight->outcome = PONG_SEEN;
 	sight->has_ball = 1;
 	sight->ball = make_ball(eye, match, event);
@@ -203,7 +208,7 @@ int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight)
 {
 	memset(sight, 0, sizeof *sight);
 	Match match;
-	if (find_ball(*eye, sight, &match)) {
+	if (has_both_pictures(*eye) && find_ball(*eye, sight, &match)) {
 		match.point.utime = eye->utime;
 		match.point.frame = frame;
 		follow_ball(*eye, match, sight);

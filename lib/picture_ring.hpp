@@ -26,7 +26,7 @@ public:
 
 	size_t count() const
 	{
-		return kept_ + (newest_.pixels ? 1 : 0);
+		return kept_ + (has_newest() ? 1 : 0);
 	}
 
 	// The one that was added `age` pictures before the newest, or the oldest.
@@ -42,10 +42,15 @@ public:
 		newest_ = image;
 	}
 
+	bool has_newest() const // which is not kept yet
+	{
+		return newest_.pixels;
+	}
+
 	// Copy the newest. False where that has been done.
 	bool keep()
 	{
-		if (!newest_.pixels)
+		if (!has_newest())
 			return false;
 		uint8_t *copy = pixels_of(kept_++);
 		for (int v = 0; v < height_; v++)

@@ -669,7 +669,7 @@ PONG_API int pong_eye_expect(pong_eye *eye, int64_t utime);
 PONG_API int pong_eye_look(pong_eye *eye, pong_side side, const pong_image *image, pong_error *error);
 
 /* Find the pair's ball, when both pictures were looked at. *sight is always filled, but for the prediction. Returns
- * PONG_FOUND with a ball, PONG_NONE without. */
+ * PONG_FOUND with a ball, PONG_NONE without, or where a picture was refused. */
 PONG_API int pong_eye_join(pong_eye *eye, int64_t frame, pong_sight *sight);
 
 /* Predict the flight of the ball that pong_eye_join has found. Returns PONG_FOUND, or PONG_NONE where there is no ball,

@@ -102,13 +102,15 @@ void Side::add_moved()
 			add_place(found_[i], true);
 }
 
-void Side::add_place(const pong_detection &place, bool before_moved)
+// False where there is no room for it.
+bool Side::add_place(const pong_detection &place, bool before_moved)
 {
 	if (count_ == balls_capacity)
-		return;
+		return false;
 	found_[count_] = place;
 	before_moved_[count_] = before_moved;
 	known_[count_++] = unknown;
+	return true;
 }
 
 void Side::look_near(double u, double v, double size)
@@ -123,10 +125,14 @@ void Side::look_near(double u, double v, double size)
 
 void Side::look_at(const pong_detection &place)
 {
-	add_place(place, false);
-	if (freshness(place.u, place.v, place.size / 2) > fresh_enough)
-		add_place(place, true);
-	add_place(place, false);
+	// Of a faint outline nothing is located: where it was looked for would stand as if it had been found there.
+	if (place.contrast >= faint) {
+		add_place(place, false);
+		if (freshness(place.u, place.v, place.size / 2) > fresh_enough)
+			add_place(place, true);
+	}
+	if (!add_place(place, false))
+		return;
 	Ball &guided = balls_[count_ - 1];
 	guided = {centre_of(place, guided_error), outline(place.u, place.v, place.size / 2).shown, true};
 	known_[count_ - 1] = ball_there;

@@ -45,6 +45,12 @@ public:
 		pictures_.forget();
 	}
 
+	// Whether the pair that is looked at has its picture.
+	bool has_picture() const
+	{
+		return pictures_.has_newest();
+	}
+
 	// Look at the newest picture.
 	void look(const Expectation &expected);
 
@@ -89,7 +95,7 @@ public:
 private:
 	void locate_all();
 	void add_moved();
-	void add_place(const pong_detection &place, bool before_moved);
+	bool add_place(const pong_detection &place, bool before_moved);
 	bool locate(const pong_detection &found, bool before_moved, pong_centre *centre) const;
 	bool streak_of(const pong_detection &found, double streak[3]) const;
 	pong_pictures compared() const;

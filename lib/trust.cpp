@@ -72,6 +72,13 @@ bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight)
 		(vector_of(match.point.position) - vector_of(expected.state.position)).norm() > expected.reach);
 }
 
+void count_point(const Match &match, pong_track_event event, FollowedFlight *flight)
+{
+	const int before = event == PONG_TRACK_BEGUN ? 0 : flight->doubtful;
+	flight->doubtful = match.off < 1 ? 0 : before + 1;
+	flight->last = match.point;
+}
+
 pong_point doubted(const Match &match)
 {
 	pong_point point = match.point;

@@ -14,6 +14,9 @@ Trust trust_of(const Match &match, const Side side[2], const pong_settings &sett
 // Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
 bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight);
 
+// The flight has begun with this point, or has got it besides.
+void count_point(const Match &match, pong_track_event event, FollowedFlight *flight);
+
 // The point as it is amid what else moves. What is behind the ball is not well known there: its centres are less
 // certain than their fits tell, and the less so the less they agree.
 pong_point doubted(const Match &match);

@@ -27,6 +27,30 @@ void Picture::draw_ball(double u0, double v0, double radius, double brightness)
 		}
 }
 
+void Picture::draw_box(int u_begin, int u_end, int v_begin, int v_end, uint8_t brightness)
+{
+	for (int v = std::max(0, v_begin); v < std::min(height_, v_end); v++)
+		for (int u = std::max(0, u_begin); u < std::min(width_, u_end); u++)
+			pixels_[static_cast<size_t>(v) * width_ + u] = brightness;
+}
+
+void Picture::draw_net(int v_begin, int v_end)
+{
+	const int mesh = 6, band = 8; // px
+	const uint8_t strings = 15, white = 220;
+	for (int v = v_begin; v < v_end; v += mesh)
+		draw_box(0, width_, v, v + 2, strings);
+	for (int u = 0; u < width_; u += mesh)
+		draw_box(u, u + 2, v_begin, v_end, strings);
+	draw_box(0, width_, v_begin, v_begin + band, white);
+}
+
+void Picture::brighten(double gain)
+{
+	for (uint8_t &pixel : pixels_)
+		pixel = static_cast<uint8_t>(std::min(255.0, gain * pixel + 0.5));
+}
+
 // Deviates are drawn once and used from a random place on in each row: quick, and different in every picture.
 void Picture::add_noise(double sigma, unsigned seed)
 {

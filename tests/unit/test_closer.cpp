@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "closer.hpp"
-#include "pictures.hpp"
-#include "rigs.hpp"
+#include "two_sides.hpp"
 
 namespace
 {
@@ -15,59 +14,66 @@ const double ball_there[3] = {0.1, 0.3, 2.5};
 class Closer : public testing::Test
 {
 protected:
-	Closer() : rig_(test_rig())
+	Closer() : left_(two_.ball_at(ball_there, PONG_LEFT))
 	{
-		pong_settings settings;
-		pong_settings_defaults(PONG_BEST, &settings);
-		for (int i = 0; i < 2; i++) {
-			side_.push_back(std::make_unique<pong::Side>(rig_, static_cast<pong_side>(i), settings));
-			pong_project(&rig_.camera[i], ball_there, uv_[i]);
-			const double size = pong_apparent_size(&rig_.camera[i], ball_there, rig_.ball.diameter);
-			now_[i].draw_ball(uv_[i][0], uv_[i][1], size / 2, 200);
-			before_[i].add_noise(1.2, static_cast<unsigned>(i));
-			now_[i].add_noise(1.2, static_cast<unsigned>(2 + i));
-			side_[static_cast<size_t>(i)]->add(before_[i].image());
-			side_[static_cast<size_t>(i)]->keep();
-			side_[static_cast<size_t>(i)]->add(now_[i].image());
-		}
-		size_ = pong_apparent_size(&rig_.camera[PONG_LEFT], ball_there, rig_.ball.diameter);
+		two_.show_room();
+		two_.show([this](Picture &picture, int side) { two_.draw_ball(ball_there, picture, side); });
 	}
 
-	double nearest(int side) const
+	double nearest(int side)
 	{
+		const pong_detection ball = two_.ball_at(ball_there, side);
 		double best = INFINITY;
-		for (int i = 0; i < side_[static_cast<size_t>(side)]->count(); i++) {
-			const pong_detection &place = side_[static_cast<size_t>(side)]->found(i);
-			best = std::min(best, std::hypot(place.u - uv_[side][0], place.v - uv_[side][1]));
+		for (int i = 0; i < two_[side].count(); i++) {
+			const pong_detection &place = two_[side].found(i);
+			best = std::min(best, std::hypot(place.u - ball.u, place.v - ball.v));
 		}
 		return best;
 	}
 
-	pong_rig rig_;
-	std::vector<std::unique_ptr<pong::Side>> side_;
-	Picture before_[2] = {Picture(640, 480, 40), Picture(640, 480, 40)};
-	Picture now_[2] = {Picture(640, 480, 40), Picture(640, 480, 40)};
-	double uv_[2][2], size_;
+	TwoSides two_;
+	const pong_detection left_;
 };
 
 TEST_F(Closer, ABallNearWhereItIsExpected)
 {
-	side_[PONG_LEFT]->look_near(uv_[PONG_LEFT][0] + 3, uv_[PONG_LEFT][1] - 2, size_);
+	two_[PONG_LEFT].look_near(left_.u + 3, left_.v - 2, left_.size);
 	EXPECT_LT(nearest(PONG_LEFT), 1);
 }
 
 TEST_F(Closer, NothingWhereThereIsNoBall)
 {
-	side_[PONG_LEFT]->look_near(uv_[PONG_LEFT][0] + 60, uv_[PONG_LEFT][1], size_);
-	EXPECT_EQ(side_[PONG_LEFT]->count(), 0);
+	two_[PONG_LEFT].look_near(left_.u + 60, left_.v, left_.size);
+	EXPECT_EQ(two_[PONG_LEFT].count(), 0);
 }
 
 TEST_F(Closer, OneCameraTellsTheOther)
 {
-	side_[PONG_LEFT]->look_near(uv_[PONG_LEFT][0] + 3, uv_[PONG_LEFT][1] - 2, size_);
-	ASSERT_EQ(side_[PONG_RIGHT]->count(), 0);
-	pong::look_closer(rig_, *side_[PONG_LEFT], *side_[PONG_RIGHT], nullptr, true);
+	two_[PONG_LEFT].look_near(left_.u + 3, left_.v - 2, left_.size);
+	ASSERT_EQ(two_[PONG_RIGHT].count(), 0);
+	pong::look_closer(two_.rig(), two_[PONG_LEFT], two_[PONG_RIGHT], nullptr, true);
 	EXPECT_LT(nearest(PONG_RIGHT), 1);
+}
+
+// There is room for so many places: those of the first ones stay.
+TEST_F(Closer, WhatIsTooMuchIsLeftOut)
+{
+	pong_detection ball = left_;
+	ball.contrast = 100;
+	pong::Side &left = two_[PONG_LEFT];
+	int count;
+	do {
+		count = left.count();
+		left.look_at(ball);
+	} while (left.count() > count);
+	pong_detection elsewhere = ball;
+	elsewhere.u += 100;
+	left.look_at(elsewhere);
+	EXPECT_EQ(left.count(), count);
+	for (int i = 0; i < count; i++) {
+		ASSERT_TRUE(left.ball(i)) << i;
+		EXPECT_NEAR(left.ball(i)->centre.u, ball.u, 1) << i;
+	}
 }
 
 } // namespace
