@@ -141,8 +141,10 @@ public:
 				const int sector = pixels_.patch[b][i] - sectors;
 				if (sector < 0)
 					continue;
-				kept[sector] += static_cast<double>(kept_[b][i]);
-				all[sector] += static_cast<double>(pixels_.weight[b][i]);
+				// Beside the ball a thing that covers it looks as it did before.
+				const float cover = pixels_.blocks[b].slope[geometry_terms][i];
+				kept[sector] += static_cast<double>(cover * kept_[b][i]);
+				all[sector] += static_cast<double>(cover * pixels_.weight[b][i]);
 			}
 		int count = 0;
 		for (int sector = 0; sector < sectors; sector++)

@@ -85,9 +85,12 @@ struct Sight {
 		detection.u -= columns;
 	}
 
-	void cover_below(int row, uint8_t level)
+	// What covers may have been there before the ball came.
+	void cover_below(int row, uint8_t level, bool before)
 	{
 		std::fill(current.begin() + row * camera.width, current.end(), level);
+		if (before)
+			std::fill(earlier.begin() + row * camera.width, earlier.end(), level);
 	}
 
 	// The centre's distance from where it is, px; 99 where there is none.
@@ -168,16 +171,18 @@ TEST(Locate, FlagsWhatTheBorderCuts)
 	EXPECT_GT(cut.covariance[0][0], whole.covariance[0][0]);
 }
 
-// A racket of one brightness hides the lower part of the ball.
+// A racket of one brightness hides the lower part of the ball: one that comes with it, and one that rests.
 TEST(Locate, FlagsWhatIsCovered)
 {
-	Sight sight(PONG_LEFT, {0.1, 0.25, 1.0}, even_shades);
-	pong_centre whole, covered;
-	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &whole), 0.05);
-	sight.cover_below(static_cast<int>(sight.uv[1] + 0.6 * whole.radius), 20);
-	ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &covered), 1);
-	EXPECT_EQ(covered.flags, static_cast<unsigned>(PONG_CENTRE_COVERED));
-	EXPECT_GT(covered.covariance[1][1], 2 * whole.covariance[1][1]);
+	for (const bool before : {false, true}) {
+		Sight sight(PONG_LEFT, {0.1, 0.25, 1.0}, even_shades);
+		pong_centre whole, covered;
+		ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &whole), 0.05);
+		sight.cover_below(static_cast<int>(sight.uv[1] + 0.6 * whole.radius), 20, before);
+		ASSERT_LT(sight.error(PONG_LOCATE_PHOTOMETRIC, &covered), 1);
+		EXPECT_EQ(covered.flags, static_cast<unsigned>(PONG_CENTRE_COVERED));
+		EXPECT_GT(covered.covariance[1][1], 2 * whole.covariance[1][1]);
+	}
 }
 
 // Off the axis and close, the outline is an ellipse whose middle is not the ball's centre.
