@@ -126,7 +126,9 @@ void CellSums::sample(const Area &cells, CellSamples samples[2])
 	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
 	for_each_sampled_row(cells, [&](int row) {
 		const auto sample_row = [&](const uint16_t *in, int begin, uint16_t *out) {
-			for (int i = 0; i * every < columns; i++)
+			if (every == 1)
+				std::copy_n(in, columns, out + begin);
+			for (int i = 0; every > 1 && i * every < columns; i++)
 				out[begin + i] = in[i * every];
 		};
 		const int begin = samples[0].count;
