@@ -80,6 +80,12 @@ struct ColumnSums {
 	int32_t count[columns_together], v[columns_together], vv[columns_together], level[columns_together];
 };
 
+// std::hypot guards against numbers that do not come here, and takes longer.
+double length(double a, double b)
+{
+	return std::sqrt(a * a + b * b);
+}
+
 // The ellipse with the same moments: its middle and half axes.
 struct Ellipse {
 	double u, v, major, minor;
@@ -93,12 +99,12 @@ struct Ellipse {
 		// A pixel is a square, not a point: 1/12.
 		const double uu = m.uu / m.count - u * u + 1.0 / 12, vv = m.vv / m.count - v * v + 1.0 / 12;
 		const double uv = m.uv / m.count - u * v;
-		const double mean = (uu + vv) / 2, half = std::hypot((uu - vv) / 2, uv);
+		const double mean = (uu + vv) / 2, apart = (uu - vv) / 2, half = length(apart, uv);
 		major = 2 * std::sqrt(mean + half);
 		minor = 2 * std::sqrt(std::max(mean - half, 0.0));
-		const double angle = std::atan2(uv, (uu - vv) / 2) / 2;
-		axis_u = std::cos(angle);
-		axis_v = std::sin(angle);
+		const double twice = half > 0 ? apart / half : 1; // cosine of twice the major axis' angle
+		axis_u = std::sqrt((1 + twice) / 2);
+		axis_v = std::copysign(std::sqrt((1 - twice) / 2), uv);
 		fill = m.count / (M_PI * major * minor);
 		u += area.u_begin;
 		v += area.v_begin;
@@ -112,8 +118,8 @@ struct Ellipse {
 	// The smallest rectangle around it.
 	Area box() const
 	{
-		const double half_u = std::hypot(major * axis_u, minor * axis_v);
-		const double half_v = std::hypot(major * axis_v, minor * axis_u);
+		const double half_u = length(major * axis_u, minor * axis_v);
+		const double half_v = length(major * axis_v, minor * axis_u);
 		return {static_cast<int>(std::floor(u - half_u)), static_cast<int>(std::ceil(u + half_u)) + 1,
 			static_cast<int>(std::floor(v - half_v)), static_cast<int>(std::ceil(v + half_v)) + 1};
 	}

@@ -1,14 +1,12 @@
 #include "cells.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
 
 #include "clones.hpp"
-#include "vectors.hpp"
 
 namespace pong
 {
@@ -144,28 +142,16 @@ PONG_CLONES void scale_cells(const uint16_t *sums, int count, int32_t gain, uint
 		scaled[i] = static_cast<uint16_t>(sums[i] * gain / gain_one);
 }
 
-int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference)
+PONG_CLONES int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference)
 {
-	int16_t greatest = 0;
-	if (count < words_together) {
-		for (int i = 0; i < count; i++) {
-			difference[i] = static_cast<int16_t>(now[i] - then[i]);
-			greatest = std::max<int16_t>(greatest, std::abs(difference[i]));
-		}
-		return greatest;
+	int16_t least = 0, most = 0;
+	for (int i = 0; i < count; i++) {
+		const int16_t d = static_cast<int16_t>(now[i] - then[i]);
+		difference[i] = d;
+		least = d < least ? d : least;
+		most = d > most ? d : most;
 	}
-	Words least = {}, most = {};
-	for (int i = 0; i < count; i += words_together) {
-		const int first = std::min(i, count - words_together); // the last may overlap with the one before
-		const Words changes = load<Words>(now + first) - load<Words>(then + first);
-		least = lesser(least, changes);
-		most = greater(most, changes);
-		store(changes, difference + first);
-	}
-	const Words magnitude = greater(most, -least);
-	for (int i = 0; i < words_together; i++)
-		greatest = std::max(greatest, magnitude[i]);
-	return greatest;
+	return most > -least ? most : -least;
 }
 
 } // namespace pong

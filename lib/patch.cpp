@@ -47,42 +47,66 @@ struct Layers {
 	ptrdiff_t now_stride, then_stride, before_stride;
 };
 
-} // namespace
-
-// How far the area's pixels lie outside, and zeros between the rows of it, which lie `stride` apart.
-PONG_CLONES static void measure_beyond(const Layers &layers, const Gains &gains, int width, int height,
-				       ptrdiff_t stride, int16_t *beyond)
+// How far pixels of one row lie outside, and zeros beside the last one.
+inline void measure_row(const Layers &layers, const Gains &gains, int v, int width, int16_t *beyond)
 {
-	const int32_t then_gain = gains.of[0], before_gain = gains.of[1];
-	const bool relights = then_gain != gain_one || before_gain != gain_one;
-	for (int v = 0; v < height; v++, beyond += stride) {
-		const uint8_t *now = layers.now + v * layers.now_stride, *then = layers.then + v * layers.then_stride,
-			      *before = layers.before + v * layers.before_stride;
-		if (relights || width < bytes_together)
-			for (int i = 0; i < width; i++)
-				beyond[i] = outside(now[i], relit(then[i], then_gain), relit(before[i], before_gain));
-		else
-			for (int begin = 0; begin < width; begin += bytes_together) {
-				const int i = std::min(begin, width - bytes_together); // the last may overlap
-				outside_together(now + i, then + i, before + i, beyond + i);
-			}
-		memset(beyond + width, 0, bytes_together * sizeof *beyond); // up to the next row, or some of it
+	const uint8_t *now = layers.now + v * layers.now_stride, *then = layers.then + v * layers.then_stride,
+		      *before = layers.before + v * layers.before_stride;
+	if (gains.of[0] != gain_one || gains.of[1] != gain_one || width < bytes_together)
+		for (int i = 0; i < width; i++)
+			beyond[i] = outside(now[i], relit(then[i], gains.of[0]), relit(before[i], gains.of[1]));
+	else
+		for (int begin = 0; begin < width; begin += bytes_together) {
+			const int i = std::min(begin, width - bytes_together); // the last may overlap
+			outside_together(now + i, then + i, before + i, beyond + i);
+		}
+	store(Words{}, beyond + width);
+	store(Words{}, beyond + width + words_together);
+}
+
+// Sums over three rows.
+inline void sum_down(const int16_t *above, const int16_t *middle, const int16_t *below, int width, int16_t *out)
+{
+	for (int i = 0; i < width; i += words_together)
+		store(load<Words>(above + i) + load<Words>(middle + i) + load<Words>(below + i), out + i);
+}
+
+// The magnitude of sums over three neighbours; in[-1] must be there.
+inline void sum_across(const int16_t *in, int width, int16_t *out)
+{
+	for (int i = 0; i < width; i += words_together) {
+		const Words sum = load<Words>(in + i - 1) + load<Words>(in + i) + load<Words>(in + i + 1);
+		store(greater(sum, -sum), out + i);
 	}
 }
 
-// Sums over three neighbours; in[-1] and in[count] must be there.
-PONG_CLONES static void sum_across(const int16_t *in, ptrdiff_t count, int16_t *out)
-{
-	for (ptrdiff_t i = 0; i < count; i++)
-		out[i] = static_cast<int16_t>(in[i - 1] + in[i] + in[i + 1]);
-}
+const int rows_kept = 5; // while levels are summed
 
-// The magnitude of sums over three rows; in has a row more above and one below.
-PONG_CLONES static void sum_down(const int16_t *in, ptrdiff_t stride, ptrdiff_t count, int16_t *out)
+} // namespace
+
+// Row by row: what is in between stays in the cache. What was summed down one row ago is summed across, for processors
+// wait where they read otherwise what they have just written. `rows` has room for those kept, `pitch` apart.
+PONG_CLONES static void sum_around(const Layers &layers, const Gains &gains, int width, int height, int16_t *rows,
+				   ptrdiff_t pitch, ptrdiff_t stride, int16_t *level)
 {
-	for (ptrdiff_t i = 0; i < count; i++) {
-		const int16_t sum = static_cast<int16_t>(in[i - stride] + in[i] + in[i + stride]);
-		out[i] = std::max(sum, static_cast<int16_t>(-sum)); // narrow: so many more at once
+	int16_t *above = rows, *middle = above + pitch, *below = middle + pitch;
+	int16_t *down = below + pitch, *down_before = down + pitch;
+	const auto clear = [&](int16_t *row) { std::fill_n(row, pitch, int16_t{0}); };
+	clear(middle);
+	down[-1] = down_before[-1] = 0;
+	measure_row(layers, gains, 0, width, below);
+	for (int v = 0; v <= height; v++) {
+		std::swap(above, middle);
+		std::swap(middle, below);
+		std::swap(down, down_before);
+		if (v + 1 < height)
+			measure_row(layers, gains, v + 1, width, below);
+		else
+			clear(below);
+		if (v < height)
+			sum_down(above, middle, below, width + 1, down);
+		if (v > 0)
+			sum_across(down_before, width, level + (v - 1) * stride);
 	}
 }
 
@@ -94,10 +118,9 @@ static ptrdiff_t stride_of(int width)
 
 Patch::Patch(int width, int height)
 {
-	const size_t pixels = static_cast<size_t>(stride_of(width)) * (static_cast<size_t>(height) + 2);
-	beyond_.resize(pixels + 2);
-	across_.resize(pixels);
-	level_.resize(pixels);
+	const size_t stride = static_cast<size_t>(stride_of(width));
+	rows_.resize(rows_kept * (stride + bytes_together) + bytes_together);
+	level_.resize(stride * static_cast<size_t>(height) + bytes_together);
 }
 
 void Patch::fill(const pong_pictures &pictures, const Gains &gains, const Area &area)
@@ -109,14 +132,8 @@ void Patch::fill(const pong_pictures &pictures, const Gains &gains, const Area &
 		return image.pixels + area.v_begin * image.stride + area.u_begin;
 	};
 	const pong_image &now = pictures.current, &then = pictures.earlier[0], &before = pictures.earlier[1];
-	// Zeros all around, a row above and one below.
-	int16_t *const first = beyond_.data() + 1, *const inside = first + stride_;
-	std::fill(first - 1, inside, int16_t{0});
-	measure_beyond({pixels(now), pixels(then), pixels(before), now.stride, then.stride, before.stride}, gains,
-		       width, height, stride_, inside);
-	std::fill_n(inside + height * stride_, stride_ + 1, int16_t{0});
-	sum_across(first, (height + 2) * stride_, across_.data());
-	sum_down(across_.data() + stride_, stride_, height * stride_, level_.data());
+	sum_around({pixels(now), pixels(then), pixels(before), now.stride, then.stride, before.stride}, gains, width,
+		   height, rows_.data() + bytes_together, stride_ + bytes_together, stride_, level_.data());
 }
 
 } // namespace pong

@@ -48,8 +48,8 @@ public:
 private:
 	Area area_ = {0, 0, 0, 0};
 	ptrdiff_t stride_ = 0;
-	std::vector<int16_t> beyond_;         // by pixel, with zeros around: how far outside, with its sign
-	std::vector<int16_t> across_, level_; // the same summed over 3 of a row, and over 3 x 3
+	std::vector<int16_t> rows_;  // a few that are being summed
+	std::vector<int16_t> level_; // by pixel, summed over 3 x 3
 };
 
 const int patch_one = 9; // a grey level
