@@ -56,6 +56,16 @@ struct Moments {
 		vv += at_v * at_v * row_count;
 	}
 
+	void add_column(double column_count, double column_v, double column_vv, double at_u)
+	{
+		count += column_count;
+		u += at_u * column_count;
+		uu += at_u * at_u * column_count;
+		v += column_v;
+		uv += at_u * column_v;
+		vv += column_vv;
+	}
+
 	// Pixels from `from` to `to`, both included, ends between pixels allowed.
 	void add_span(double from, double to, double at_v)
 	{
@@ -63,6 +73,18 @@ struct Moments {
 		add(length, length * middle, length * (middle * middle + length * length / 12), at_v);
 	}
 };
+
+// Sums over the lit pixels of each column, of some columns beside each other.
+const int columns_together = 16;
+struct ColumnSums {
+	int32_t count[columns_together], v[columns_together], vv[columns_together], level[columns_together];
+};
+
+// std::hypot guards against numbers that do not come here, and takes longer.
+double length(double a, double b)
+{
+	return std::sqrt(a * a + b * b);
+}
 
 // The ellipse with the same moments: its middle and half axes.
 struct Ellipse {
@@ -77,12 +99,12 @@ struct Ellipse {
 		// A pixel is a square, not a point: 1/12.
 		const double uu = m.uu / m.count - u * u + 1.0 / 12, vv = m.vv / m.count - v * v + 1.0 / 12;
 		const double uv = m.uv / m.count - u * v;
-		const double mean = (uu + vv) / 2, half = std::hypot((uu - vv) / 2, uv);
+		const double mean = (uu + vv) / 2, apart = (uu - vv) / 2, half = length(apart, uv);
 		major = 2 * std::sqrt(mean + half);
 		minor = 2 * std::sqrt(std::max(mean - half, 0.0));
-		const double angle = std::atan2(uv, (uu - vv) / 2) / 2;
-		axis_u = std::cos(angle);
-		axis_v = std::sin(angle);
+		const double twice = half > 0 ? apart / half : 1; // cosine of twice the major axis' angle
+		axis_u = std::sqrt((1 + twice) / 2);
+		axis_v = std::copysign(std::sqrt((1 - twice) / 2), uv);
 		fill = m.count / (M_PI * major * minor);
 		u += area.u_begin;
 		v += area.v_begin;
@@ -96,8 +118,8 @@ struct Ellipse {
 	// The smallest rectangle around it.
 	Area box() const
 	{
-		const double half_u = std::hypot(major * axis_u, minor * axis_v);
-		const double half_v = std::hypot(major * axis_v, minor * axis_u);
+		const double half_u = length(major * axis_u, minor * axis_v);
+		const double half_v = length(major * axis_v, minor * axis_u);
 		return {static_cast<int>(std::floor(u - half_u)), static_cast<int>(std::ceil(u + half_u)) + 1,
 			static_cast<int>(std::floor(v - half_v)), static_cast<int>(std::ceil(v + half_v)) + 1};
 	}
@@ -196,8 +218,8 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 	const auto lit = [&](double radii, double extra, int eighth) {
 		const double a = (radii * ellipse.major + extra) * eighths[static_cast<size_t>(eighth)].cosine;
 		const double b = (radii * ellipse.minor + extra) * eighths[static_cast<size_t>(eighth)].sine;
-		return patch.at(static_cast<int>(std::lround(ellipse.u + a * ellipse.axis_u - b * ellipse.axis_v)),
-				static_cast<int>(std::lround(ellipse.v + a * ellipse.axis_v + b * ellipse.axis_u))) >
+		return patch.at(static_cast<int>(std::lrint(ellipse.u + a * ellipse.axis_u - b * ellipse.axis_v)),
+				static_cast<int>(std::lrint(ellipse.v + a * ellipse.axis_v + b * ellipse.axis_u))) >
 		       level;
 	};
 	int inside = lit(0, 0, 0), around = 0;
@@ -210,40 +232,48 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 
 } // namespace
 
-PONG_CLONES static int count_lit(const Pixels &pixels, int16_t level)
+// Of pixels that lie `step` apart.
+static int count_lit(const int16_t *first, ptrdiff_t step, int count, int level)
 {
-	int count = 0;
-	for (int v = 0; v < pixels.height; v++) {
-		const int16_t *row = pixels.first + v * pixels.stride;
-		int16_t in_row = 0; // as narrow as the pixels: so many more at once
-		for (int u = 0; u < pixels.width; u++)
-			in_row = static_cast<int16_t>(in_row + (row[u] > level));
-		count += in_row;
-	}
-	return count;
+	int lit = 0;
+	for (int i = 0; i < count; i++)
+		lit += first[i * step] > level;
+	return lit;
 }
 
-PONG_CLONES static Moments sum_lit(const Pixels &pixels, int level)
+PONG_CLONES static void sum_columns(const int16_t *first, ptrdiff_t stride, int height, int level, ColumnSums *sums)
+{
+	*sums = {};
+	for (int v = 0; v < height; v++) {
+		const int16_t *row = first + v * stride;
+		for (int i = 0; i < columns_together; i++) {
+			const int32_t lit = row[i] > level ? -1 : 0;
+			sums->count[i] -= lit;
+			sums->v[i] += lit & v;
+			sums->vv[i] += lit & (v * v);
+			sums->level[i] += lit & row[i];
+		}
+	}
+}
+
+// Down the columns, so that vectors are added up but once.
+static Moments sum_lit(const Pixels &pixels, int level)
 {
 	Moments moments;
-	for (int v = 0; v < pixels.height; v++) {
-		const int16_t *row = pixels.first + v * pixels.stride;
-		int32_t count = 0, sum_u = 0, sum_uu = 0, sum_level = 0;
-		for (int u = 0; u < pixels.width; u++) {
-			const int32_t lit = row[u] > level;
-			count += lit;
-			sum_u += lit * u;
-			sum_uu += lit * u * u;
-			sum_level += lit * row[u];
+	for (int begin = 0; begin < pixels.width; begin += columns_together) {
+		ColumnSums sums;
+		sum_columns(pixels.first + begin, pixels.stride, pixels.height, level, &sums);
+		const int columns = std::min(columns_together, pixels.width - begin);
+		for (int i = 0; i < columns; i++) {
+			moments.add_column(sums.count[i], sums.v[i], sums.vv[i], begin + i);
+			moments.level += sums.level[i];
 		}
-		moments.add(count, sum_u, sum_uu, v);
-		moments.level += sum_level;
 	}
 	return moments;
 }
 
 // The part of the frame around an area that is lit.
-static double frame_lit(const Patch &patch, const Area &area, int16_t level)
+static double frame_lit(const Patch &patch, const Area &area, int level)
 {
 	const int out = margin + frame_width;
 	const auto grown = [&](int by) {
@@ -251,10 +281,20 @@ static double frame_lit(const Patch &patch, const Area &area, int16_t level)
 				 {area.u_begin - by, area.u_end + by, area.v_begin - by, area.v_end + by});
 	};
 	const Area outer = grown(out), inner = grown(margin);
-	const auto pixels = [](const Area &a) { return (a.u_end - a.u_begin) * (a.v_end - a.v_begin); };
-	const int frame = pixels(outer) - pixels(inner);
-	const int16_t dark = static_cast<int16_t>(std::min<int>(level, INT16_MAX)); // a level is less than that
-	const int lit = count_lit(pixels_of(patch, outer), dark) - count_lit(pixels_of(patch, inner), dark);
+	const int width = outer.u_end - outer.u_begin, height = inner.v_end - inner.v_begin;
+	int frame = 0, lit = 0;
+	const auto add_rows = [&](int begin, int end) {
+		for (int v = begin; v < end; v++, frame += width)
+			lit += count_lit(patch.pixel(outer.u_begin, v), 1, width, level);
+	};
+	const auto add_columns = [&](int begin, int end) {
+		for (int u = begin; u < end; u++, frame += height)
+			lit += count_lit(patch.pixel(u, inner.v_begin), patch.stride(), height, level);
+	};
+	add_rows(outer.v_begin, inner.v_begin);
+	add_rows(inner.v_end, outer.v_end);
+	add_columns(outer.u_begin, inner.u_begin);
+	add_columns(inner.u_end, outer.u_end);
 	return frame > 0 ? double(lit) / frame : 0;
 }
 

@@ -49,15 +49,21 @@ void sum_strip(const pong_image &image, const Area &strip, uint16_t *sums)
 
 } // namespace
 
-void fetch_cells(const pong_image &image, const Area &cells)
+// What lies in a row, one after the other.
+static void fetch_row(const void *begin, const void *end)
 {
 	const int cache_line = 64; // bytes
-	const int last = (cells.u_end - cells.u_begin) * cell_size - 1;
+	const char *const last = static_cast<const char *>(end) - 1;
+	for (const char *at = static_cast<const char *>(begin); at < last; at += cache_line)
+		__builtin_prefetch(at);
+	__builtin_prefetch(last);
+}
+
+void fetch_cells(const pong_image &image, const Area &cells)
+{
 	for (int v = cells.v_begin * cell_size; v < cells.v_end * cell_size; v++) {
-		const uint8_t *pixels = image.pixels + v * image.stride + cells.u_begin * cell_size;
-		for (int i = 0; i < last; i += cache_line)
-			__builtin_prefetch(pixels + i);
-		__builtin_prefetch(pixels + last);
+		const uint8_t *row = image.pixels + v * image.stride;
+		fetch_row(row + cells.u_begin * cell_size, row + cells.u_end * cell_size);
 	}
 }
 
@@ -81,15 +87,20 @@ void CellSums::set_pictures(const pong_pictures &pictures)
 	older_cells_ = memory_.cells_of(pictures.earlier[1]);
 }
 
-void CellSums::fetch_ahead(const Area &cells, bool windowed) const
+void CellSums::fetch_samples(const Area &cells) const
 {
-	if (windowed) {
-		fetch_cells(pictures_.current, cells);
-		if (then_cells_ == then_.data())
-			fetch_cells(pictures_.earlier[0], cells);
-		fetch_older(cells);
-	} else {
-		for_each_sampled_row(cells, [&](int row) { fetch_older({cells.u_begin, cells.u_end, row, row + 1}); });
+	for_each_sampled_row(cells, [&](int row) { fetch_older({cells.u_begin, cells.u_end, row, row + 1}); });
+}
+
+void CellSums::fetch(const Area &cells) const
+{
+	fetch_cells(pictures_.current, cells);
+	const uint16_t *const remembered[] = {then_cells_ == then_.data() ? nullptr : then_cells_, older_cells_};
+	for (int i = 0; i < 2; i++) {
+		if (!remembered[i])
+			fetch_cells(pictures_.earlier[i], cells);
+		for (int row = cells.v_begin; remembered[i] && row < cells.v_end; row++)
+			fetch_row(&remembered[i][cell(cells.u_begin, row)], &remembered[i][cell(cells.u_end, row)]);
 	}
 }
 
@@ -126,7 +137,9 @@ void CellSums::sample(const Area &cells, CellSamples samples[2])
 	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
 	for_each_sampled_row(cells, [&](int row) {
 		const auto sample_row = [&](const uint16_t *in, int begin, uint16_t *out) {
-			for (int i = 0; i * every < columns; i++)
+			if (every == 1)
+				std::copy_n(in, columns, out + begin);
+			for (int i = 0; every > 1 && i * every < columns; i++)
 				out[begin + i] = in[i * every];
 		};
 		const int begin = samples[0].count;

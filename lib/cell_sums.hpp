@@ -40,8 +40,11 @@ public:
 	void set_pictures(const pong_pictures &pictures);
 	void sum(const Area &cells);
 
-	// Have the memory send what will be read first: of windows all, of whole pictures the samples.
-	void fetch_ahead(const Area &cells, bool windowed) const;
+	// Have the memory send what will be read first of whole pictures: the samples.
+	void fetch_samples(const Area &cells) const;
+
+	// The same of what will be read of an area.
+	void fetch(const Area &cells) const;
 
 	// The current picture against each of the earlier ones, here and there in the area that was summed.
 	void sample(const Area &cells, CellSamples samples[2]);

@@ -74,6 +74,7 @@ public:
 
 private:
 	Area cells_of(const Area &pixels) const;
+	void fetch(const pong_pictures &pictures, const pong_window &window) const;
 	Conditions measure_conditions(const Area &cells, bool windowed);
 	int32_t threshold(const Conditions &conditions) const;
 	Area pixels_of(const CellGroup &group, int margin) const;
@@ -167,8 +168,9 @@ int DoubleDifference::look_at(const CellGroup &group, const pong_pictures &pictu
 	if (extent < limits.size_min / 2)
 		return count;
 	const Area around = pixels_of(group, close_margin);
-	for (const pong_image *image : {&pictures.current, &pictures.earlier[0], &pictures.earlier[1]})
-		fetch_cells(*image, cells_of(around)); // the cache may hold no more what was read long ago
+	if (!window) // whose pixels were fetched
+		for (const pong_image *image : {&pictures.current, &pictures.earlier[0], &pictures.earlier[1]})
+			fetch_cells(*image, cells_of(around)); // the cache may hold no more what was read long ago
 	patch_.fill(pictures, conditions.gains, around);
 	pong_detection ball;
 	if (measure_blob(patch_, area, group.contrast(), limits, &ball))
@@ -215,6 +217,18 @@ int DoubleDifference::look_at_fresh(const pong_pictures &pictures, const Conditi
 	return count;
 }
 
+// The ball is where the window's middle is, most likely: there the earlier pictures will be looked at close up.
+void DoubleDifference::fetch(const pong_pictures &pictures, const pong_window &window) const
+{
+	sums_.fetch(cells_of(searched_area(region_.width, region_.height, &window)));
+	const int size = static_cast<int>(window.size_max) + 2 * (close_margin + cell_size);
+	const pong_window middle = {
+		window.u + (window.width - size) / 2, window.v + (window.height - size) / 2, size, size, 0, 0};
+	const Area cells = cells_of(searched_area(region_.width, region_.height, &middle));
+	for (const pong_image &earlier : pictures.earlier)
+		fetch_cells(earlier, cells);
+}
+
 int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *window, pong_detection *found,
 			     int capacity)
 {
@@ -222,7 +236,10 @@ int DoubleDifference::detect(const pong_pictures &pictures, const pong_window *w
 	if (cells.empty())
 		return 0;
 	sums_.set_pictures(pictures);
-	sums_.fetch_ahead(cells, window != nullptr);
+	if (!window)
+		sums_.fetch_samples(cells);
+	else
+		fetch(pictures, *window);
 	sums_.sum(cells);
 	const Conditions conditions = measure_conditions(cells, window != nullptr);
 	lit_.light(sums_, cells, conditions.gains, threshold(conditions));

@@ -1,16 +1,13 @@
 #include "lit_cells.hpp"
 
-#include <cstdlib>
-
 namespace pong
 {
 
-LitCells::LitCells(int columns, int rows) : columns_(columns), rows_(rows)
+LitCells::LitCells(int columns, int rows)
 {
-	const size_t cells = static_cast<size_t>(stride()) * static_cast<size_t>(rows + 2 * reach);
-	lit_.resize(cells);
-	lit_cells_.reserve(cells);
-	stack_.reserve(cells);
+	const size_t cells = static_cast<size_t>(columns) * static_cast<size_t>(rows);
+	lit_.reserve(cells);
+	runs_.reserve(cells);
 	differing_.reserve(static_cast<size_t>(rows));
 }
 
@@ -23,22 +20,17 @@ void LitCells::light_strip(CellSums &sums, const Area &strip, int32_t gain, int3
 	const int16_t *to_then = sums.change_to_earlier(strip);
 	const int count = strip.u_end - strip.u_begin;
 	for (int i = 0; i < count; i++) {
-		const int32_t a = to_then[i], b = to_before[i];
-		const int32_t beyond = (a > 0) == (b > 0) ? std::min(std::abs(a), std::abs(b)) : 0;
-		if (beyond <= threshold)
-			continue;
-		const int place = (strip.v_begin + reach) * stride() + strip.u_begin + i + reach;
-		lit_[static_cast<size_t>(place)] = beyond;
-		lit_cells_.push_back(place);
+		const int16_t a = to_then[i], b = to_before[i];
+		const int32_t beyond = std::max<int32_t>(std::min(a, b), -std::max(a, b));
+		if (beyond > threshold)
+			lit_.push_back({strip.u_begin + i, strip.v_begin, beyond});
 	}
 }
 
 // The older picture is read only where the earlier one differs.
 void LitCells::light(CellSums &sums, const Area &cells, const Gains &gains, int32_t threshold)
 {
-	for (const int place : lit_cells_)
-		lit_[static_cast<size_t>(place)] = 0;
-	lit_cells_.clear();
+	lit_.clear();
 	differing_.clear();
 	if (gains.of[0] != gain_one)
 		sums.scale_earlier(cells, gains.of[0]);
@@ -53,33 +45,45 @@ void LitCells::light(CellSums &sums, const Area &cells, const Gains &gains, int3
 		light_strip(sums, part, gains.of[1], threshold);
 }
 
-// Collect the lit cells close to the first one, and take them out.
-CellGroup LitCells::take_group(int first)
+void LitCells::make_runs()
 {
-	CellGroup group = {{columns_, -1}, {rows_, -1}, 0, 0, 0};
-	const auto take = [&](int place) {
-		const double weight = lit_[static_cast<size_t>(place)];
-		const int column = place % stride() - reach, row = place / stride() - reach;
-		lit_[static_cast<size_t>(place)] = 0;
-		group.columns[0] = std::min(group.columns[0], column);
-		group.columns[1] = std::max(group.columns[1], column);
-		group.rows[0] = std::min(group.rows[0], row);
-		group.rows[1] = std::max(group.rows[1], row);
-		group.weight += weight;
-		group.weight2 += weight * weight;
-		group.cells++;
-		stack_.push_back(place);
-	};
-	take(first);
-	while (!stack_.empty()) {
-		const int place = stack_.back();
-		stack_.pop_back();
-		for (int down = -reach; down <= reach; down++)
-			for (int right = -reach; right <= reach; right++)
-				if (lit_[static_cast<size_t>(place + down * stride() + right)])
-					take(place + down * stride() + right);
+	runs_.clear();
+	for (const Lit &lit : lit_) {
+		if (runs_.empty() || runs_.back().row != lit.row || lit.column > runs_.back().end + reach) {
+			runs_.push_back({nullptr, lit.column, lit.column, lit.row, {}});
+			runs_.back().group = {{lit.column, lit.column}, {lit.row, lit.row}, 0, 0, 0};
+		}
+		Run &run = runs_.back();
+		const double weight = lit.beyond;
+		run.end = run.group.columns[1] = lit.column;
+		run.group.weight += weight;
+		run.group.weight2 += weight * weight;
+		run.group.cells++;
 	}
-	return group;
+}
+
+void LitCells::make_groups()
+{
+	make_runs();
+	const auto first_of = [](Run *run) {
+		while (run->first != run)
+			run = run->first = run->first->first;
+		return run;
+	};
+	Run *above = runs_.data(); // no run before this one is close enough
+	for (Run &run : runs_) {
+		run.first = &run;
+		while (above->row < run.row - reach)
+			above++;
+		for (Run *other = above; other->row < run.row; other++)
+			if (other->begin <= run.end + reach && run.begin <= other->end + reach) {
+				Run *const a = first_of(&run), *const b = first_of(other);
+				std::max(a, b)->first = std::min(a, b);
+			}
+	}
+	for (Run &run : runs_)
+		if (Run *const first = first_of(&run); first != &run)
+			first->group.add(run.group);
 }
 
 } // namespace pong

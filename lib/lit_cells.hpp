@@ -20,6 +20,17 @@ struct CellGroup {
 	{
 		return weight2 / weight / cell_pixels;
 	}
+
+	void add(const CellGroup &other)
+	{
+		columns[0] = std::min(columns[0], other.columns[0]);
+		columns[1] = std::max(columns[1], other.columns[1]);
+		rows[0] = std::min(rows[0], other.rows[0]);
+		rows[1] = std::max(rows[1], other.rows[1]);
+		weight += other.weight;
+		weight2 += other.weight2;
+		cells += other.cells;
+	}
 };
 
 class LitCells
@@ -34,33 +45,42 @@ public:
 	// Leave only those lit of which `is_kept(column, row)`.
 	template<class Kept> void keep(Kept is_kept)
 	{
-		for (const int place : lit_cells_)
-			if (!is_kept(place % stride() - reach, place / stride() - reach))
-				lit_[static_cast<size_t>(place)] = 0;
+		const auto goes = [&](const Lit &lit) { return !is_kept(lit.column, lit.row); };
+		lit_.erase(std::remove_if(lit_.begin(), lit_.end(), goes), lit_.end());
 	}
 
 	// Take the groups out, in the order of scan.
 	template<class Visit> void for_each_group(Visit visit)
 	{
-		for (const int place : lit_cells_)
-			if (lit_[static_cast<size_t>(place)])
-				visit(take_group(place));
+		make_groups();
+		lit_.clear();
+		for (const Run &run : runs_)
+			if (run.first == &run)
+				visit(run.group);
 	}
 
 private:
 	static const int reach = 2; // cells of a group are so close to each other, in cells
 
-	int stride() const
-	{
-		return columns_ + 2 * reach;
-	}
-	void light_strip(CellSums &sums, const Area &strip, int32_t gain, int32_t threshold);
-	CellGroup take_group(int first);
+	struct Lit {
+		int column, row;
+		int32_t beyond; // how far outside of both earlier pictures, a sum of pixels
+	};
 
-	int columns_, rows_;
-	std::vector<int32_t> lit_;   // by cell, with a border: how far outside of both, 0 if not lit
-	std::vector<int> lit_cells_; // places in lit_, in the order of scan
-	std::vector<int> stack_;
+	// Lit cells close to each other in one row. Of runs that are close to each other all point, one by way of the
+	// other, at the first, which gathers the group.
+	struct Run {
+		Run *first;
+		int begin, end, row; // columns, the last one included
+		CellGroup group;
+	};
+
+	void light_strip(CellSums &sums, const Area &strip, int32_t gain, int32_t threshold);
+	void make_runs();
+	void make_groups();
+
+	std::vector<Lit> lit_; // in the order of scan
+	std::vector<Run> runs_;
 	std::vector<Area> differing_; // parts of rows that the earlier picture does not show
 };
 

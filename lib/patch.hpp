@@ -36,20 +36,20 @@ public:
 	// The same, from the pixel (u, v) of the area onwards; the next row of it lies `stride` farther.
 	const int16_t *pixel(int u, int v) const
 	{
-		return level_.data() + (v - area_.v_begin) * stride() + (u - area_.u_begin);
+		return level_.data() + (v - area_.v_begin) * stride_ + (u - area_.u_begin);
 	}
 
-	// No more than the area is wide, so that the cache holds it.
+	// Not much more than the area is wide, so that the cache holds it.
 	ptrdiff_t stride() const
 	{
-		return area_.u_end - area_.u_begin;
+		return stride_;
 	}
 
 private:
 	Area area_ = {0, 0, 0, 0};
-	std::vector<int16_t> then_, before_,
-		beyond_;                      // of a row: the earlier pictures in today's light; how far outside
-	std::vector<int16_t> across_, level_; // by pixel: summed over 3 of a row, and over 3 x 3
+	ptrdiff_t stride_ = 0;
+	std::vector<int16_t> rows_;  // a few that are being summed
+	std::vector<int16_t> level_; // by pixel, summed over 3 x 3
 };
 
 const int patch_one = 9; // a grey level
