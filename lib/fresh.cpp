@@ -132,9 +132,14 @@ bool is_fresh_cell(const pong_image &now, const pong_image &previous, int32_t ga
 			std::min(255, before_flicker(pixel(now, u + i % cell_size, v + i / cell_size), gain)));
 	const int begin = std::clamp(u - across / 2, 0, now.width - across - cell_size);
 	const int first = std::max(0, v - down), last = std::min(now.height - cell_size, v + down);
-	for (int above = first; above <= last; above++)
-		if (least_difference(cell, previous.pixels + above * previous.stride + begin, previous.stride) <=
-		    cell_pixels * level)
+	const auto shown = [&](int above) {
+		return above >= first && above <= last &&
+		       least_difference(cell, previous.pixels + above * previous.stride + begin, previous.stride) <=
+			       cell_pixels * level;
+	};
+	// Most of what is not fresh has hardly moved.
+	for (int away = 0; away <= down; away++)
+		if (shown(v - away) || shown(v + away))
 			return false;
 	return true;
 }
