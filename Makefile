@@ -248,6 +248,7 @@ help:
 	@echo "  make latency    how long the tracker takes from the last packet to the message"
 	@echo "  make loss       what 0.1 % of the packets, when they are lost, cost in pairs"
 	@echo "  make fuzz       any bytes into every parser, under sanitizers; FUZZ_SECONDS=300 each"
+	@echo "  make test-arm   unit tests of the library for 64-bit ARM, run by qemu"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"
 	@echo "  V=1 shows the commands; CC=clang CXX=clang++ BUILD=build-clang WERROR=1: another compiler and folder"
@@ -297,3 +298,4 @@ clean:
 
 -include trigger/build.mk
 -include tests/fuzz/build.mk
+-include tests/arm/build.mk

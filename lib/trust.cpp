@@ -20,6 +20,7 @@ const double slow = 2.5;              // people's arms are, m/s
 const int slow_points = 3;            // of a flight tell its speed
 const int doubtful_most = 8;          // doubtful points in a row: that is an arm
 const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
+const double error_most = 0.1;        // standard deviation of a point that is not certain, m
 
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
 double freshness(const Match &match, const Side side[2])
@@ -49,6 +50,13 @@ bool is_slow(const FollowedFlight &flight)
 	       std::hypot(velocity[0], velocity[1], velocity[2]) < slow;
 }
 
+// In the direction in which the point is known least, standard deviation, m.
+double error_of(const pong_point &point)
+{
+	const Matrix3 covariance = Eigen::Map<const Matrix3>(&point.covariance[0][0]);
+	return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3>(covariance, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+}
+
 } // namespace
 
 Trust trust_of(const Match &match, const Side side[2], const pong_settings &settings)
@@ -62,6 +70,8 @@ Trust trust_of(const Match &match, const Side side[2], const pong_settings &sett
 
 bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight)
 {
+	if (trust != Trust::certain && error_of(match.point) > error_most)
+		return true;
 	if (trust != Trust::none)
 		return false;
 	if (is_slow(flight))
