@@ -14,8 +14,7 @@ CellMemory::CellMemory(int width, int height, int expected) : columns_(width / c
 
 void CellMemory::add_place()
 {
-	pictures_.push_back(
-		{nullptr, 0, std::vector<uint16_t>(static_cast<size_t>(columns_) * static_cast<size_t>(rows_))});
+	pictures_.push_back({nullptr, 0, std::vector<uint16_t>(static_cast<size_t>(columns_ * rows_ + cells_beside))});
 }
 
 CellMemory::Remembered &CellMemory::place_of(const pong_image &image)

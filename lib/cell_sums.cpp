@@ -11,9 +11,9 @@ namespace pong
 namespace
 {
 
-const int sampled_strips = 4; // rows of cells that tell noise and gain
-const int sampled_cells = 64; // of each
-const int cells_together = 8; // so many are as quickly summed as fewer
+const int sampled_strips = 4;  // rows of cells that tell noise and gain
+const int sampled_cells = 64;  // of each
+const int cells_together = 16; // so many are as quickly looked at as fewer
 
 // The columns of each row of cells that the region has.
 std::vector<Area> strips_of(const pong_region &region, int columns, int rows)
@@ -72,11 +72,10 @@ CellSums::CellSums(const pong_region &region, int remembered)
 	  strips_(strips_of(region, columns_, rows_)), memory_(region.width, region.height, remembered)
 {
 	for (auto *picture : {&now_, &then_})
-		picture->resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
-	before_.resize(static_cast<size_t>(columns_));
+		picture->resize(static_cast<size_t>(columns_ * rows_ + cells_beside));
+	before_.resize(static_cast<size_t>(columns_ + cells_beside));
+	outside_.resize(static_cast<size_t>(columns_ + cells_beside));
 	change_.resize(static_cast<size_t>(rows_));
-	for (auto *row : {&to_then_, &to_before_})
-		row->resize(static_cast<size_t>(columns_));
 }
 
 void CellSums::set_pictures(const pong_pictures &pictures)
@@ -122,7 +121,7 @@ void CellSums::sum(const Area &cells)
 	};
 	for_each_strip(cells, [&](const Area &strip) {
 		sum_both(strip);
-		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
+		change_[static_cast<size_t>(strip.v_begin)] = greatest_change(strip);
 	});
 	// Samples are taken beside the region too.
 	for_each_sampled_row(cells, [&](int row) {
@@ -160,30 +159,30 @@ void CellSums::scale_earlier(const Area &cells, int32_t gain)
 	for_each_strip(cells, [&](const Area &strip) {
 		const size_t first = cell(strip.u_begin, strip.v_begin);
 		scale_cells(&unscaled[first], strip.u_end - strip.u_begin, gain, &then_[first]);
-		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
+		change_[static_cast<size_t>(strip.v_begin)] = greatest_change(strip);
 	});
 }
 
-// The greatest change of a strip's cells.
-int CellSums::subtract(const Area &strip)
+int CellSums::greatest_change(const Area &strip) const
 {
 	const size_t first = cell(strip.u_begin, strip.v_begin);
-	return subtract_cells(&now_[first], &then_cells_[first], strip.u_end - strip.u_begin, to_then_.data());
+	return greatest_difference(&now_[first], &then_cells_[first], strip.u_end - strip.u_begin);
 }
 
-Area CellSums::differing(const Area &strip, int32_t threshold)
+Area CellSums::differing(const Area &strip, int32_t threshold) const
 {
-	if (change_[static_cast<size_t>(strip.v_begin)] <= threshold || subtract(strip) <= threshold)
+	const int row = strip.v_begin;
+	if (change_[static_cast<size_t>(row)] <= threshold)
 		return {0, 0, 0, 0};
-	const auto differs = [&](int column) {
-		return std::abs(to_then_[static_cast<size_t>(column - strip.u_begin)]) > threshold;
-	};
 	Area part = strip;
-	while (!differs(part.u_begin))
-		part.u_begin++;
-	const int least = std::min(part.u_begin + cells_together, strip.u_end);
-	while (part.u_end > least && !differs(part.u_end - 1))
-		part.u_end--;
+	const auto has_more = [&] { return part.u_end - part.u_begin > cells_together; };
+	const auto differs = [&](int begin) {
+		return greatest_change({begin, begin + cells_together, row, row + 1}) > threshold;
+	};
+	while (has_more() && !differs(part.u_begin))
+		part.u_begin += cells_together;
+	while (has_more() && !differs(part.u_end - cells_together))
+		part.u_end -= cells_together;
 	return part;
 }
 
@@ -196,22 +195,17 @@ const uint16_t *CellSums::older_strip(const Area &strip)
 	return before_.data();
 }
 
-const int16_t *CellSums::change_to_earlier(const Area &strip)
-{
-	subtract(strip);
-	return to_then_.data();
-}
-
-const int16_t *CellSums::change_to_older(const Area &strip, int32_t gain, int32_t threshold)
+const int16_t *CellSums::outside(const Area &strip, int32_t older_gain)
 {
 	const int count = strip.u_end - strip.u_begin;
+	const size_t first = cell(strip.u_begin, strip.v_begin);
 	const uint16_t *before = older_strip(strip);
-	if (gain != gain_one) {
-		scale_cells(before, count, gain, before_.data());
+	if (older_gain != gain_one) {
+		scale_cells(before, count, older_gain, before_.data());
 		before = before_.data();
 	}
-	const int most = subtract_cells(&now_[cell(strip.u_begin, strip.v_begin)], before, count, to_before_.data());
-	return most > threshold ? to_before_.data() : nullptr;
+	measure_outside(&now_[first], &then_cells_[first], before, count, outside_.data());
+	return outside_.data();
 }
 
 } // namespace pong
