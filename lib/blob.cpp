@@ -77,16 +77,7 @@ struct Moments {
 	}
 };
 
-const int rows_together = 14; // so many have sums of 16 bits
-
-// Of numbers whose sum has no more bits than they.
-inline int sum_of(const Words &words)
-{
-	int16_t sum = 0;
-	for (int i = 0; i < together; i++)
-		sum = static_cast<int16_t>(sum + words[i]);
-	return sum;
-}
+const int rows_together = 28; // so many have sums of 16 bits: a patch shows 255 * patch_one at most
 
 // std::hypot guards against numbers that do not come here, and takes longer.
 double length(double a, double b)
@@ -244,7 +235,8 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 PONG_CLONES static void sum_block(const Pixels &pixels, int level, Moments *moments)
 {
 	const Words u = places, inside = u < static_cast<int16_t>(pixels.width);
-	Words count = {}, v = {}, vv = {}, levels = {}, at = {}; // the last is the row's number
+	Words count = {}, v = {}, vv = {}, at = {}; // the last is the row's number
+	Naturals levels = {};
 	const int16_t *row = pixels.first;
 	for (int i = 0; i < pixels.height; i++, row += pixels.stride, at += 1) {
 		Words shown;
@@ -253,15 +245,11 @@ PONG_CLONES static void sum_block(const Pixels &pixels, int level, Moments *mome
 		count -= lit;
 		v += lit & at;
 		vv += lit & (at * at);
-		levels += lit & shown;
+		levels += reinterpret_cast<Naturals>(lit & shown);
 	}
-	*moments = {double(sum_of(count)),
-		    double(sum_of(u * count)),
-		    double(sum_of(v)),
-		    double(sum_of(u * u * count)),
-		    double(sum_of(u * v)),
-		    double(sum_of(vv)),
-		    double((sum_of(levels >> 8) << 8) + sum_of(levels & 255))};
+	*moments = {double(sum_of(count)),         double(sum_of(u * count)), double(sum_of(v)),
+		    double(sum_of(u * u * count)), double(sum_of(u * v)),     double(sum_of(vv)),
+		    double(sum_of(levels))};
 }
 
 // In blocks of columns, for vectors, and of rows, for sums of few bits.

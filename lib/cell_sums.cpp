@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "region.hpp"
+#include "vectors.hpp"
 
 namespace pong
 {
@@ -119,8 +120,9 @@ void CellSums::sum(const Area &cells)
 		if (read_earlier)
 			sum_strip(pictures_.earlier[0], strip, &then_[first]);
 	};
+	for_each_strip(cells, sum_both);
+	// Not row by row: processors wait where they read otherwise what they have just written.
 	for_each_strip(cells, [&](const Area &strip) {
-		sum_both(strip);
 		change_[static_cast<size_t>(strip.v_begin)] = greatest_change(strip);
 	});
 	// Samples are taken beside the region too.
@@ -136,8 +138,11 @@ void CellSums::sample(const Area &cells, CellSamples samples[2])
 	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
 	for_each_sampled_row(cells, [&](int row) {
 		const auto sample_row = [&](const uint16_t *in, int begin, uint16_t *out) {
-			if (every == 1)
-				std::copy_n(in, columns, out + begin);
+			for (int i = 0; every == 1 && i < columns; i += together) {
+				Words sums;
+				load(in + i, sums);
+				store(sums, out + begin + i);
+			}
 			for (int i = 0; every > 1 && i * every < columns; i++)
 				out[begin + i] = in[i * every];
 		};

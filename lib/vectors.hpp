@@ -10,7 +10,9 @@ namespace pong
 using Bytes = uint8_t __attribute__((vector_size(16)));
 using Words = int16_t __attribute__((vector_size(32))); // where the processor has half as long ones, two of them
 
-const int together = 16; // in either
+using Naturals = uint16_t __attribute__((vector_size(32)));
+
+const int together = 16; // in each
 const Words places = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 // From memory and back, aligned or not. Vectors are handed over by reference: how they are returned depends on the
@@ -39,6 +41,14 @@ template<class Vector> inline void lower_to(Vector &vector, const Vector &most)
 inline void take_magnitude(Words &words)
 {
 	raise_to(words, -words);
+}
+
+template<class Vector> inline int sum_of(const Vector &vector)
+{
+	int sum = 0;
+	for (int i = 0; i < together; i++)
+		sum += vector[i];
+	return sum;
 }
 
 } // namespace pong
