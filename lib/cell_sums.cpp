@@ -120,11 +120,14 @@ void CellSums::sum(const Area &cells)
 		if (read_earlier)
 			sum_strip(pictures_.earlier[0], strip, &then_[first]);
 	};
-	for_each_strip(cells, sum_both);
-	// Not row by row: processors wait where they read otherwise what they have just written.
+	// Compared a row later than summed: processors wait where they read otherwise what they have just written.
+	Area summed = {0, 0, 0, 0};
 	for_each_strip(cells, [&](const Area &strip) {
-		change_[static_cast<size_t>(strip.v_begin)] = greatest_change(strip);
+		sum_both(strip);
+		change_[static_cast<size_t>(summed.v_begin)] = greatest_change(summed);
+		summed = strip;
 	});
+	change_[static_cast<size_t>(summed.v_begin)] = greatest_change(summed);
 	// Samples are taken beside the region too.
 	for_each_sampled_row(cells, [&](int row) {
 		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
