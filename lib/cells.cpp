@@ -150,7 +150,7 @@ PONG_CLONES int greatest_difference(const uint16_t *now, const uint16_t *then, i
 		Words difference, other;
 		load(now + i, difference);
 		load(then + i, other);
-		difference -= other;
+		subtract(difference, other);
 		take_magnitude(difference);
 		raise_to(greatest, difference & (places < static_cast<int16_t>(std::min(count - i, together))));
 	}
@@ -174,7 +174,7 @@ PONG_CLONES void measure_outside(const uint16_t *now, const uint16_t *then, cons
 		Words nearest = sums;
 		raise_to(nearest, low);
 		lower_to(nearest, high);
-		sums -= nearest;
+		subtract(sums, nearest);
 		take_magnitude(sums);
 		store(sums, outside + i);
 	}

@@ -57,7 +57,7 @@ PONG_CLONES static bool is_as_bright(const CellSamples &samples)
 		Words difference, then;
 		load(samples.now + i, difference);
 		load(samples.then + i, then);
-		difference -= then;
+		subtract(difference, then);
 		const Words inside = places < static_cast<int16_t>(samples.count - i);
 		below -= inside & (difference <= -deadband);
 		not_above -= inside & (difference < deadband);

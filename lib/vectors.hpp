@@ -38,9 +38,17 @@ template<class Vector> inline void lower_to(Vector &vector, const Vector &most)
 	vector = vector < most ? vector : most;
 }
 
+// Differences and magnitudes wrap: beside the numbers that count, others may be anything.
+inline void subtract(Words &words, const Words &others)
+{
+	words = reinterpret_cast<Words>(reinterpret_cast<Naturals>(words) - reinterpret_cast<Naturals>(others));
+}
+
 inline void take_magnitude(Words &words)
 {
-	raise_to(words, -words);
+	Words negated = {};
+	subtract(negated, words);
+	raise_to(words, negated);
 }
 
 template<class Vector> inline int sum_of(const Vector &vector)
