@@ -102,7 +102,7 @@ uint64_t read_window(const pong_image &image, const pong_window &window)
 	return sum;
 }
 
-// One byte of each cache line of a window: no search that looks at all of it is quicker.
+// One byte of each cache line of a window: nothing that looks at all of it is quicker.
 uint64_t touch_window(const pong_image &image, const pong_window &window)
 {
 	const uintptr_t cache_line = 64; // bytes
