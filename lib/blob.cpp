@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clones.hpp"
+#include "vectors.hpp"
 
 namespace pong
 {
@@ -56,14 +57,16 @@ struct Moments {
 		vv += at_v * at_v * row_count;
 	}
 
-	void add_column(double column_count, double column_v, double column_vv, double at_u)
+	// Sums about another corner, so much farther right and down.
+	void add(const Moments &other, double right, double down)
 	{
-		count += column_count;
-		u += at_u * column_count;
-		uu += at_u * at_u * column_count;
-		v += column_v;
-		uv += at_u * column_v;
-		vv += column_vv;
+		count += other.count;
+		u += other.u + right * other.count;
+		v += other.v + down * other.count;
+		uu += other.uu + right * (2 * other.u + right * other.count);
+		uv += other.uv + right * other.v + down * (other.u + right * other.count);
+		vv += other.vv + down * (2 * other.v + down * other.count);
+		level += other.level;
 	}
 
 	// Pixels from `from` to `to`, both included, ends between pixels allowed.
@@ -74,11 +77,7 @@ struct Moments {
 	}
 };
 
-// Sums over the lit pixels of each column, of some columns beside each other.
-const int columns_together = 16;
-struct ColumnSums {
-	int32_t count[columns_together], v[columns_together], vv[columns_together], level[columns_together];
-};
+const int rows_together = 28; // so many have sums of 16 bits: a patch shows 255 * patch_one at most
 
 // std::hypot guards against numbers that do not come here, and takes longer.
 double length(double a, double b)
@@ -232,69 +231,78 @@ bool shows_five_points(const Patch &patch, const Ellipse &ellipse, int level, in
 
 } // namespace
 
-// Of pixels that lie `step` apart.
-static int count_lit(const int16_t *first, ptrdiff_t step, int count, int level)
+// Of a few rows, and as many columns as make a vector or fewer.
+PONG_CLONES static void sum_block(const Pixels &pixels, int level, Moments *moments)
 {
-	int lit = 0;
-	for (int i = 0; i < count; i++)
-		lit += first[i * step] > level;
-	return lit;
-}
-
-PONG_CLONES static void sum_columns(const int16_t *first, ptrdiff_t stride, int height, int level, ColumnSums *sums)
-{
-	*sums = {};
-	for (int v = 0; v < height; v++) {
-		const int16_t *row = first + v * stride;
-		for (int i = 0; i < columns_together; i++) {
-			const int32_t lit = row[i] > level ? -1 : 0;
-			sums->count[i] -= lit;
-			sums->v[i] += lit & v;
-			sums->vv[i] += lit & (v * v);
-			sums->level[i] += lit & row[i];
-		}
+	const Words u = places, inside = u < static_cast<int16_t>(pixels.width);
+	Words count = {}, v = {}, vv = {}, at = {}; // the last is the row's number
+	Naturals levels = {};
+	const int16_t *row = pixels.first;
+	for (int i = 0; i < pixels.height; i++, row += pixels.stride, at += 1) {
+		Words shown;
+		load(row, shown);
+		const Words lit = inside & (shown > static_cast<int16_t>(level)); // -1 where lit
+		count -= lit;
+		v += lit & at;
+		vv += lit & (at * at);
+		levels += reinterpret_cast<Naturals>(lit & shown);
 	}
+	*moments = {double(sum_of(count)),         double(sum_of(u * count)), double(sum_of(v)),
+		    double(sum_of(u * u * count)), double(sum_of(u * v)),     double(sum_of(vv)),
+		    double(sum_of(levels))};
 }
 
-// Down the columns, so that vectors are added up but once.
+// In blocks of columns, for vectors, and of rows, for sums of few bits.
 static Moments sum_lit(const Pixels &pixels, int level)
 {
 	Moments moments;
-	for (int begin = 0; begin < pixels.width; begin += columns_together) {
-		ColumnSums sums;
-		sum_columns(pixels.first + begin, pixels.stride, pixels.height, level, &sums);
-		const int columns = std::min(columns_together, pixels.width - begin);
-		for (int i = 0; i < columns; i++) {
-			moments.add_column(sums.count[i], sums.v[i], sums.vv[i], begin + i);
-			moments.level += sums.level[i];
+	for (int u = 0; u < pixels.width; u += together)
+		for (int v = 0; v < pixels.height; v += rows_together) {
+			Moments block;
+			sum_block({pixels.first + v * pixels.stride + u, pixels.stride,
+				   std::min(together, pixels.width - u), std::min(rows_together, pixels.height - v)},
+				  level, &block);
+			moments.add(block, u, v);
 		}
-	}
 	return moments;
+}
+
+// Rows of fewer pixels than overflow 16 bits.
+PONG_CLONES static int count_lit(const Pixels &pixels, int level)
+{
+	int lit = 0;
+	for (int u = 0; u < pixels.width; u += together) {
+		const Words inside = places < static_cast<int16_t>(std::min(together, pixels.width - u));
+		Words count = {};
+		const int16_t *row = pixels.first + u;
+		for (int v = 0; v < pixels.height; v++, row += pixels.stride) {
+			Words shown;
+			load(row, shown);
+			count -= inside & (shown > static_cast<int16_t>(level));
+		}
+		lit += sum_of(count);
+	}
+	return lit;
 }
 
 // The part of the frame around an area that is lit.
 static double frame_lit(const Patch &patch, const Area &area, int level)
 {
-	const int out = margin + frame_width;
 	const auto grown = [&](int by) {
 		return intersect(patch.area(),
 				 {area.u_begin - by, area.u_end + by, area.v_begin - by, area.v_end + by});
 	};
-	const Area outer = grown(out), inner = grown(margin);
-	const int width = outer.u_end - outer.u_begin, height = inner.v_end - inner.v_begin;
+	const Area outer = grown(margin + frame_width), inner = grown(margin);
+	const Area sides[] = {{outer.u_begin, outer.u_end, outer.v_begin, inner.v_begin},
+			      {outer.u_begin, outer.u_end, inner.v_end, outer.v_end},
+			      {outer.u_begin, inner.u_begin, inner.v_begin, inner.v_end},
+			      {inner.u_end, outer.u_end, inner.v_begin, inner.v_end}};
 	int frame = 0, lit = 0;
-	const auto add_rows = [&](int begin, int end) {
-		for (int v = begin; v < end; v++, frame += width)
-			lit += count_lit(patch.pixel(outer.u_begin, v), 1, width, level);
-	};
-	const auto add_columns = [&](int begin, int end) {
-		for (int u = begin; u < end; u++, frame += height)
-			lit += count_lit(patch.pixel(u, inner.v_begin), patch.stride(), height, level);
-	};
-	add_rows(outer.v_begin, inner.v_begin);
-	add_rows(inner.v_end, outer.v_end);
-	add_columns(outer.u_begin, inner.u_begin);
-	add_columns(inner.u_end, outer.u_end);
+	for (const Area &side : sides) {
+		const Pixels pixels = pixels_of(patch, side);
+		frame += pixels.width * pixels.height;
+		lit += count_lit(pixels, level);
+	}
 	return frame > 0 ? double(lit) / frame : 0;
 }
 

@@ -14,8 +14,7 @@ CellMemory::CellMemory(int width, int height, int expected) : columns_(width / c
 
 void CellMemory::add_place()
 {
-	pictures_.push_back(
-		{nullptr, 0, std::vector<uint16_t>(static_cast<size_t>(columns_) * static_cast<size_t>(rows_))});
+	pictures_.push_back({nullptr, 0, std::vector<uint16_t>(static_cast<size_t>(columns_ * rows_ + cells_beside))});
 }
 
 CellMemory::Remembered &CellMemory::place_of(const pong_image &image)
@@ -44,11 +43,13 @@ void CellMemory::remember(const pong_image &image)
 			  &place.cells[static_cast<size_t>(row) * static_cast<size_t>(columns_)]);
 }
 
-const uint16_t *CellMemory::cells_of(const pong_image &image) const
+const uint16_t *CellMemory::cells_of(const pong_image &image)
 {
-	for (const Remembered &picture : pictures_)
-		if (picture.is(image))
-			return picture.cells.data();
+	for (size_t i = 0; i < used_; i++) {
+		latest_ = latest_ + 1 < used_ ? latest_ + 1 : 0;
+		if (pictures_[latest_].is(image))
+			return pictures_[latest_].cells.data();
+	}
 	return nullptr;
 }
 

@@ -17,8 +17,9 @@ public:
 	// A picture at the place of another one takes its place here, too.
 	void remember(const pong_image &image);
 
-	// Rows of width / cell_size sums; null of a picture that is not remembered.
-	const uint16_t *cells_of(const pong_image &image) const;
+	// Rows of width / cell_size sums; null of a picture that is not remembered. They are found soonest in the order
+	// in which they came.
+	const uint16_t *cells_of(const pong_image &image);
 
 private:
 	struct Remembered {
@@ -39,6 +40,7 @@ private:
 	int columns_, rows_;
 	std::vector<Remembered> pictures_;
 	size_t used_ = 0, oldest_ = 0;
+	size_t latest_ = 0; // that was asked for
 };
 
 } // namespace pong

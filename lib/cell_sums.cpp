@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "region.hpp"
+#include "vectors.hpp"
 
 namespace pong
 {
@@ -11,9 +12,9 @@ namespace pong
 namespace
 {
 
-const int sampled_strips = 4; // rows of cells that tell noise and gain
-const int sampled_cells = 64; // of each
-const int cells_together = 8; // so many are as quickly summed as fewer
+const int sampled_strips = 4;  // rows of cells that tell noise and gain
+const int sampled_cells = 64;  // of each
+const int cells_together = 16; // so many are as quickly looked at as fewer
 
 // The columns of each row of cells that the region has.
 std::vector<Area> strips_of(const pong_region &region, int columns, int rows)
@@ -72,11 +73,10 @@ CellSums::CellSums(const pong_region &region, int remembered)
 	  strips_(strips_of(region, columns_, rows_)), memory_(region.width, region.height, remembered)
 {
 	for (auto *picture : {&now_, &then_})
-		picture->resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
-	before_.resize(static_cast<size_t>(columns_));
+		picture->resize(static_cast<size_t>(columns_ * rows_ + cells_beside));
+	before_.resize(static_cast<size_t>(columns_ + cells_beside));
+	outside_.resize(static_cast<size_t>(columns_ + cells_beside));
 	change_.resize(static_cast<size_t>(rows_));
-	for (auto *row : {&to_then_, &to_before_})
-		row->resize(static_cast<size_t>(columns_));
 }
 
 void CellSums::set_pictures(const pong_pictures &pictures)
@@ -120,10 +120,14 @@ void CellSums::sum(const Area &cells)
 		if (read_earlier)
 			sum_strip(pictures_.earlier[0], strip, &then_[first]);
 	};
+	// Compared a row later than summed: processors wait where they read otherwise what they have just written.
+	Area summed = {0, 0, 0, 0};
 	for_each_strip(cells, [&](const Area &strip) {
 		sum_both(strip);
-		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
+		change_[static_cast<size_t>(summed.v_begin)] = greatest_change(summed);
+		summed = strip;
 	});
+	change_[static_cast<size_t>(summed.v_begin)] = greatest_change(summed);
 	// Samples are taken beside the region too.
 	for_each_sampled_row(cells, [&](int row) {
 		const Area strip = intersect(strips_[static_cast<size_t>(row)], cells);
@@ -137,8 +141,11 @@ void CellSums::sample(const Area &cells, CellSamples samples[2])
 	const int columns = cells.u_end - cells.u_begin, every = columns / sampled_cells + 1;
 	for_each_sampled_row(cells, [&](int row) {
 		const auto sample_row = [&](const uint16_t *in, int begin, uint16_t *out) {
-			if (every == 1)
-				std::copy_n(in, columns, out + begin);
+			for (int i = 0; every == 1 && i < columns; i += together) {
+				Words sums;
+				load(in + i, sums);
+				store(sums, out + begin + i);
+			}
 			for (int i = 0; every > 1 && i * every < columns; i++)
 				out[begin + i] = in[i * every];
 		};
@@ -160,30 +167,30 @@ void CellSums::scale_earlier(const Area &cells, int32_t gain)
 	for_each_strip(cells, [&](const Area &strip) {
 		const size_t first = cell(strip.u_begin, strip.v_begin);
 		scale_cells(&unscaled[first], strip.u_end - strip.u_begin, gain, &then_[first]);
-		change_[static_cast<size_t>(strip.v_begin)] = subtract(strip);
+		change_[static_cast<size_t>(strip.v_begin)] = greatest_change(strip);
 	});
 }
 
-// The greatest change of a strip's cells.
-int CellSums::subtract(const Area &strip)
+int CellSums::greatest_change(const Area &strip) const
 {
 	const size_t first = cell(strip.u_begin, strip.v_begin);
-	return subtract_cells(&now_[first], &then_cells_[first], strip.u_end - strip.u_begin, to_then_.data());
+	return greatest_difference(&now_[first], &then_cells_[first], strip.u_end - strip.u_begin);
 }
 
-Area CellSums::differing(const Area &strip, int32_t threshold)
+Area CellSums::differing(const Area &strip, int32_t threshold) const
 {
-	if (change_[static_cast<size_t>(strip.v_begin)] <= threshold || subtract(strip) <= threshold)
+	const int row = strip.v_begin;
+	if (change_[static_cast<size_t>(row)] <= threshold)
 		return {0, 0, 0, 0};
-	const auto differs = [&](int column) {
-		return std::abs(to_then_[static_cast<size_t>(column - strip.u_begin)]) > threshold;
-	};
 	Area part = strip;
-	while (!differs(part.u_begin))
-		part.u_begin++;
-	const int least = std::min(part.u_begin + cells_together, strip.u_end);
-	while (part.u_end > least && !differs(part.u_end - 1))
-		part.u_end--;
+	const auto has_more = [&] { return part.u_end - part.u_begin > cells_together; };
+	const auto differs = [&](int begin) {
+		return greatest_change({begin, begin + cells_together, row, row + 1}) > threshold;
+	};
+	while (has_more() && !differs(part.u_begin))
+		part.u_begin += cells_together;
+	while (has_more() && !differs(part.u_end - cells_together))
+		part.u_end -= cells_together;
 	return part;
 }
 
@@ -196,22 +203,17 @@ const uint16_t *CellSums::older_strip(const Area &strip)
 	return before_.data();
 }
 
-const int16_t *CellSums::change_to_earlier(const Area &strip)
-{
-	subtract(strip);
-	return to_then_.data();
-}
-
-const int16_t *CellSums::change_to_older(const Area &strip, int32_t gain, int32_t threshold)
+const int16_t *CellSums::outside(const Area &strip, int32_t older_gain)
 {
 	const int count = strip.u_end - strip.u_begin;
+	const size_t first = cell(strip.u_begin, strip.v_begin);
 	const uint16_t *before = older_strip(strip);
-	if (gain != gain_one) {
-		scale_cells(before, count, gain, before_.data());
+	if (older_gain != gain_one) {
+		scale_cells(before, count, older_gain, before_.data());
 		before = before_.data();
 	}
-	const int most = subtract_cells(&now_[cell(strip.u_begin, strip.v_begin)], before, count, to_before_.data());
-	return most > threshold ? to_before_.data() : nullptr;
+	measure_outside(&now_[first], &then_cells_[first], before, count, outside_.data());
+	return outside_.data();
 }
 
 } // namespace pong

@@ -62,36 +62,35 @@ public:
 		}
 	}
 
-	// The part of a strip, from its first to its last cell, that differs from the earlier picture by more than the
-	// threshold.
-	Area differing(const Area &strip, int32_t threshold);
+	// A part of a strip with all cells that differ from the earlier picture by more than the threshold, and few
+	// others beside them.
+	Area differing(const Area &strip, int32_t threshold) const;
 
 	// Have the memory send a strip of the older picture, unless it is remembered.
 	void fetch_older(const Area &strip) const;
 
-	// How much brighter each cell of a strip is than in the earlier picture, and than in the older one in today's
-	// light. The latter is null where no cell differs by more than the threshold.
-	const int16_t *change_to_earlier(const Area &strip);
-	const int16_t *change_to_older(const Area &strip, int32_t gain, int32_t threshold);
+	// How far each cell of a strip lies outside of what the earlier picture and the older one, in today's light,
+	// show.
+	const int16_t *outside(const Area &strip, int32_t older_gain);
 
 private:
 	size_t cell(int column, int row) const
 	{
 		return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
 	}
-	int subtract(const Area &strip);
+	int greatest_change(const Area &strip) const;
 	const uint16_t *older_strip(const Area &strip);
 
 	int columns_, rows_;
 	std::vector<Area> strips_; // by row of cells: the columns of the region
 	CellMemory memory_;
 	pong_pictures pictures_ = {};
-	std::vector<uint16_t> now_, then_;         // cells of the current and the earlier picture,
-	const uint16_t *then_cells_ = nullptr;     // of which the latter may be remembered, and
-	const uint16_t *older_cells_ = nullptr;    // of the older one, null if they are not
-	std::vector<uint16_t> before_;             // one row of the older picture
-	std::vector<int> change_;                  // by row of cells, the greatest between current and earlier
-	std::vector<int16_t> to_then_, to_before_; // of one row
+	std::vector<uint16_t> now_, then_;      // cells of the current and the earlier picture,
+	const uint16_t *then_cells_ = nullptr;  // of which the latter may be remembered, and
+	const uint16_t *older_cells_ = nullptr; // of the older one, null if they are not
+	std::vector<uint16_t> before_;          // one row of the older picture
+	std::vector<int> change_;               // by row of cells, the greatest between current and earlier
+	std::vector<int16_t> outside_;          // of one row
 };
 
 } // namespace pong

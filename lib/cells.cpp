@@ -7,6 +7,7 @@
 #endif
 
 #include "clones.hpp"
+#include "vectors.hpp"
 
 namespace pong
 {
@@ -142,16 +143,41 @@ PONG_CLONES void scale_cells(const uint16_t *sums, int count, int32_t gain, uint
 		scaled[i] = static_cast<uint16_t>(sums[i] * gain / gain_one);
 }
 
-PONG_CLONES int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference)
+PONG_CLONES int greatest_difference(const uint16_t *now, const uint16_t *then, int count)
 {
-	int16_t least = 0, most = 0;
-	for (int i = 0; i < count; i++) {
-		const int16_t d = static_cast<int16_t>(now[i] - then[i]);
-		difference[i] = d;
-		least = d < least ? d : least;
-		most = d > most ? d : most;
+	Words greatest = {};
+	for (int i = 0; i < count; i += together) {
+		Words difference, other;
+		load(now + i, difference);
+		load(then + i, other);
+		subtract(difference, other);
+		take_magnitude(difference);
+		raise_to(greatest, difference & (places < static_cast<int16_t>(std::min(count - i, together))));
 	}
-	return most > -least ? most : -least;
+	int most = 0;
+	for (int i = 0; i < together; i++)
+		most = std::max<int>(most, greatest[i]);
+	return most;
+}
+
+PONG_CLONES void measure_outside(const uint16_t *now, const uint16_t *then, const uint16_t *before, int count,
+				 int16_t *outside)
+{
+	for (int i = 0; i < count; i += together) {
+		Words sums, low, high;
+		load(now + i, sums);
+		load(then + i, low);
+		load(before + i, high);
+		const Words one = low;
+		lower_to(low, high);
+		raise_to(high, one);
+		Words nearest = sums;
+		raise_to(nearest, low);
+		lower_to(nearest, high);
+		subtract(sums, nearest);
+		take_magnitude(sums);
+		store(sums, outside + i);
+	}
 }
 
 } // namespace pong

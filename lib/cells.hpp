@@ -21,7 +21,14 @@ void sum_cells_plainly(const uint8_t *top, ptrdiff_t stride, int count, uint16_t
 const int32_t gain_one = 4096;
 void scale_cells(const uint16_t *sums, int count, int32_t gain, uint16_t *scaled);
 
-// now - then of `count` cells. Returns the greatest magnitude.
-int subtract_cells(const uint16_t *now, const uint16_t *then, int count, int16_t *difference);
+// Of sums beside each other, so many more are read than asked for, whatever they are.
+const int cells_beside = 15;
+
+// The greatest magnitude of now - then of `count` cells.
+int greatest_difference(const uint16_t *now, const uint16_t *then, int count);
+
+// How far each of `count` cells lies outside of what two earlier pictures show, brighter or darker. There must be room
+// for cells_beside more.
+void measure_outside(const uint16_t *now, const uint16_t *then, const uint16_t *before, int count, int16_t *outside);
 
 } // namespace pong

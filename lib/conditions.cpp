@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "clones.hpp"
+#include "vectors.hpp"
 
 namespace pong
 {
@@ -47,16 +48,32 @@ PONG_CLONES static void differences(const CellSamples &samples, int32_t gain, in
 		out[i] = static_cast<int16_t>(samples.now[i] - samples.then[i] * gain / gain_one);
 }
 
+// Whether the median of now - then is nearly none.
+PONG_CLONES static bool is_as_bright(const CellSamples &samples)
+{
+	const int16_t deadband = offset_deadband;
+	Words below = {}, not_above = {};
+	for (int i = 0; i < samples.count; i += together) {
+		Words difference, then;
+		load(samples.now + i, difference);
+		load(samples.then + i, then);
+		subtract(difference, then);
+		const Words inside = places < static_cast<int16_t>(samples.count - i);
+		below -= inside & (difference <= -deadband);
+		not_above -= inside & (difference < deadband);
+	}
+	return sum_of(below) <= samples.count / 2 && sum_of(not_above) > samples.count / 2;
+}
+
 int32_t measure_gain(const CellSamples &samples)
 {
 	int16_t difference[CellSamples::capacity], distance[CellSamples::capacity];
 	const int count = samples.count;
 	if (count < 8)
 		return gain_one;
-	differences(samples, gain_one, difference);
-	if (count_up_to(difference, count, -offset_deadband) <= count / 2 &&
-	    count_up_to(difference, count, offset_deadband - 1) > count / 2)
+	if (is_as_bright(samples))
 		return gain_one;
+	differences(samples, gain_one, difference);
 	const int offset = quantile(difference, count, count / 2);
 	for (int i = 0; i < count; i++)
 		distance[i] = static_cast<int16_t>(std::abs(difference[i] - offset));

@@ -10,7 +10,7 @@ namespace pong
 struct CellSamples {
 	static const int capacity = 256;
 	int count = 0;
-	uint16_t now[capacity], then[capacity];
+	uint16_t now[capacity + cells_beside], then[capacity + cells_beside];
 };
 
 // By how much what rests became brighter, in 1 / gain_one. More than half of the samples must be of what rests.

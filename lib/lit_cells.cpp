@@ -12,19 +12,12 @@ LitCells::LitCells(int columns, int rows)
 }
 
 // Light the cells of a part of a row.
-void LitCells::light_strip(CellSums &sums, const Area &strip, int32_t gain, int32_t threshold)
+void LitCells::light_strip(CellSums &sums, const Area &strip, int32_t older_gain, int32_t threshold)
 {
-	const int16_t *to_before = sums.change_to_older(strip, gain, threshold);
-	if (!to_before)
-		return;
-	const int16_t *to_then = sums.change_to_earlier(strip);
-	const int count = strip.u_end - strip.u_begin;
-	for (int i = 0; i < count; i++) {
-		const int16_t a = to_then[i], b = to_before[i];
-		const int32_t beyond = std::max<int32_t>(std::min(a, b), -std::max(a, b));
-		if (beyond > threshold)
-			lit_.push_back({strip.u_begin + i, strip.v_begin, beyond});
-	}
+	const int16_t *outside = sums.outside(strip, older_gain);
+	for (int column = strip.u_begin; column < strip.u_end; column++, outside++)
+		if (*outside > threshold)
+			lit_.push_back({column, strip.v_begin, *outside});
 }
 
 // The older picture is read only where the earlier one differs.
@@ -48,17 +41,16 @@ void LitCells::light(CellSums &sums, const Area &cells, const Gains &gains, int3
 void LitCells::make_runs()
 {
 	runs_.clear();
+	Run *run = nullptr;
 	for (const Lit &lit : lit_) {
-		if (runs_.empty() || runs_.back().row != lit.row || lit.column > runs_.back().end + reach) {
-			runs_.push_back({nullptr, lit.column, lit.column, lit.row, {}});
-			runs_.back().group = {{lit.column, lit.column}, {lit.row, lit.row}, 0, 0, 0};
+		if (!run || run->row() != lit.row || lit.column > run->end() + reach) {
+			runs_.push_back({nullptr, {{lit.column, lit.column}, {lit.row, lit.row}, 0, 0, 0}});
+			run = &runs_.back();
 		}
-		Run &run = runs_.back();
-		const double weight = lit.beyond;
-		run.end = run.group.columns[1] = lit.column;
-		run.group.weight += weight;
-		run.group.weight2 += weight * weight;
-		run.group.cells++;
+		run->group.columns[1] = lit.column;
+		run->group.cells++;
+		run->group.weight += lit.beyond;
+		run->group.weight2 += lit.beyond * lit.beyond;
 	}
 }
 
@@ -73,10 +65,10 @@ void LitCells::make_groups()
 	Run *above = runs_.data(); // no run before this one is close enough
 	for (Run &run : runs_) {
 		run.first = &run;
-		while (above->row < run.row - reach)
+		while (above->row() < run.row() - reach)
 			above++;
-		for (Run *other = above; other->row < run.row; other++)
-			if (other->begin <= run.end + reach && run.begin <= other->end + reach) {
+		for (Run *other = above; other->row() < run.row(); other++)
+			if (other->begin() <= run.end() + reach && run.begin() <= other->end() + reach) {
 				Run *const a = first_of(&run), *const b = first_of(other);
 				std::max(a, b)->first = std::min(a, b);
 			}

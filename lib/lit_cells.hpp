@@ -13,12 +13,13 @@ namespace pong
 // A group of cells close to each other.
 struct CellGroup {
 	int columns[2], rows[2]; // first and last
-	double weight, weight2;  // sums of the cells' differences and of their squares
 	int cells;
+	int32_t weight;  // sum of the cells' differences, sums of pixels,
+	int64_t weight2; // and of their squares
 
 	double contrast() const // grey levels; the full cells count most
 	{
-		return weight2 / weight / cell_pixels;
+		return static_cast<double>(weight2) / weight / cell_pixels;
 	}
 
 	void add(const CellGroup &other)
@@ -71,11 +72,23 @@ private:
 	// other, at the first, which gathers the group.
 	struct Run {
 		Run *first;
-		int begin, end, row; // columns, the last one included
-		CellGroup group;
+		CellGroup group; // of this run alone, until all are joined
+
+		int begin() const
+		{
+			return group.columns[0];
+		}
+		int end() const // the last one
+		{
+			return group.columns[1];
+		}
+		int row() const
+		{
+			return group.rows[0];
+		}
 	};
 
-	void light_strip(CellSums &sums, const Area &strip, int32_t gain, int32_t threshold);
+	void light_strip(CellSums &sums, const Area &strip, int32_t older_gain, int32_t threshold);
 	void make_runs();
 	void make_groups();
 

@@ -48,7 +48,6 @@ public:
 private:
 	Area area_ = {0, 0, 0, 0};
 	ptrdiff_t stride_ = 0;
-	std::vector<int16_t> rows_;  // a few that are being summed
 	std::vector<int16_t> level_; // by pixel, summed over 3 x 3
 };
 

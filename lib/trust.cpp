@@ -20,7 +20,7 @@ const double slow = 2.5;              // people's arms are, m/s
 const int slow_points = 3;            // of a flight tell its speed
 const int doubtful_most = 8;          // doubtful points in a row: that is an arm
 const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
-const double error_most = 0.1;        // standard deviation of a point that is not certain, m
+const double error_most = 0.13;       // standard deviation of a point that is not certain, m
 
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
 double freshness(const Match &match, const Side side[2])

@@ -11,8 +11,8 @@ namespace pong
 
 Trust trust_of(const Match &match, const Side side[2], const pong_settings &settings);
 
-// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball; and none that is
-// not certain, where it is hardly known.
+// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball; and none that
+// is not certain, where it is hardly known.
 bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight);
 
 // The flight has begun with this point, or has got it besides.

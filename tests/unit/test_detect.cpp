@@ -242,23 +242,26 @@ TEST(Cells, SumsAreThoseOfTheirPixels)
 
 TEST(Cells, DifferencesAreThoseOfTheirSums)
 {
-	const int count = 45;
-	uint16_t now[count], then[count];
-	int16_t difference[count];
+	const int most = 45, room = most + pong::cells_beside;
+	uint16_t now[room], then[room], before[room];
 	std::mt19937 random(3);
-	for (int i = 0; i < count; i++) {
-		now[i] = random() % 4081;
-		then[i] = random() % 4081;
+	for (uint16_t *picture : {now, then, before})
+		std::generate_n(picture, room, [&] { return random() % 4081; });
+	for (int count = 1; count <= most; count++) {
+		int greatest = 0;
+		int16_t outside[room];
+		pong::measure_outside(now, then, before, count, outside);
+		for (int i = 0; i < count; i++) {
+			greatest = std::max(greatest, std::abs(now[i] - then[i]));
+			const int low = std::min(then[i], before[i]), high = std::max(then[i], before[i]);
+			EXPECT_EQ(outside[i], std::max({0, now[i] - high, low - now[i]}));
+		}
+		EXPECT_EQ(pong::greatest_difference(now, then, count), greatest);
+		EXPECT_EQ(pong::greatest_difference(then, now, count), greatest);
 	}
-	int greatest = 0;
-	for (int i = 0; i < count; i++)
-		greatest = std::max(greatest, std::abs(now[i] - then[i]));
-	EXPECT_EQ(pong::subtract_cells(now, then, count, difference), greatest);
-	for (int i = 0; i < count; i++)
-		EXPECT_EQ(difference[i], now[i] - then[i]);
-	uint16_t scaled[count];
-	pong::scale_cells(then, count, pong::gain_one * 5 / 4, scaled);
-	for (int i = 0; i < count; i++)
+	uint16_t scaled[most];
+	pong::scale_cells(then, most, pong::gain_one * 5 / 4, scaled);
+	for (int i = 0; i < most; i++)
 		EXPECT_EQ(scaled[i], then[i] * 5 / 4);
 }
 

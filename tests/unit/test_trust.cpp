@@ -62,14 +62,14 @@ TEST(Hopeless, AreMoreThanEightDoubtfulOnesInARow)
 	EXPECT_EQ(flight.last.position[1], there[1] + 0.01);
 }
 
-// A point that is known to no better than 0.1 m, unless nothing else can look so.
+// A point that is known to no better than 0.13 m, unless nothing else can look so.
 TEST(Hopeless, IsWhatIsHardlyKnown)
 {
 	const pong::FollowedFlight flight = flight_of_speed(6);
 	pong::Match match = match_at(0, 0.5);
-	match.point.covariance[2][2] = 0.09 * 0.09;
+	match.point.covariance[2][2] = 0.12 * 0.12;
 	EXPECT_FALSE(is_hopeless(match, Trust::likely, flight));
-	match.point.covariance[2][2] = 0.11 * 0.11;
+	match.point.covariance[2][2] = 0.14 * 0.14;
 	EXPECT_TRUE(is_hopeless(match, Trust::none, flight));
 	EXPECT_TRUE(is_hopeless(match, Trust::likely, flight));
 	EXPECT_FALSE(is_hopeless(match, Trust::certain, flight));

@@ -59,7 +59,7 @@ struct Score {
 };
 
 struct Settings {
-	int seeds, first_seed;
+	int seeds = 2, first_seed = 1;
 	std::string rig;  // a calibration to locate with; empty: the true one
 	std::string only; // this condition; empty: all
 	std::string figure;
@@ -372,8 +372,8 @@ int bench::accuracy(int argc, char **argv)
 		"Locate rendered balls at the paper's 60 places by every method, at rest and moving:\nthose as a track "
 		"of five earlier pairs tells their velocity. Last, the least that noise allows.",
 		"  $ pongeye-bench accuracy --seeds 1 | head -3\n");
-	options.integer("--seeds", "2", "pictures of each place", &settings.seeds, 1, 1000);
-	options.integer("--first-seed", "1", "the first seed", &settings.first_seed, 0, 1000000);
+	options.integer("--seeds", "N", "pictures of each place (2)", &settings.seeds, 1, 1000);
+	options.integer("--first-seed", "N", "the first seed (1)", &settings.first_seed, 0, 1000000);
 	options.text("--rig", "FILE", "a calibration to locate with, instead of the true one", &settings.rig);
 	options.text("--figure", "FILE", "also draw how the errors at rest are distributed, as SVG", &settings.figure);
 	options.text("--only", "NAME", "only this condition, as the first column names it", &settings.only);

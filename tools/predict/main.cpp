@@ -125,8 +125,8 @@ bool parse(int argc, char **argv, Arguments &arguments)
 		"pongeye-predict",
 		"Predict flights from any tracker's points: a table `t x y z` on stdin, a row on stdout after "
 		"every point.",
-		"  $ pongeye-predict --fit recorded.txt > rig.toml\n"
-		"  $ pongeye-predict --rig rig.toml --ahead 0.2 < flights.txt\n"
+		"  $ pongeye-predict --fit recorded.txt > ball.toml    # [ball] and [table], for rig.toml too\n"
+		"  $ pongeye-predict --rig ball.toml --ahead 0.2 < flights.txt\n"
 		"  # flight t n hit_t hit_x hit_y hit_z ...\n"
 		"  0 0.000000 1 - - - - - - - - - - - - - - - - - - -\n"
 		"  0 0.010000 2 0.323404 0.000000 0.123607 0.000000 ...\n");
