@@ -211,8 +211,9 @@ void print_score(Score &score)
 	printf("balls found       %d of %d in view and region (%.2f %%)\n", score.found, score.expected,
 	       100.0 * score.found / std::max(score.expected, 1));
 	printf("points not balls  %d of %d published\n", score.not_balls, score.balls);
-	printf("3-D error         mean %.1f mm, median %.1f mm, 90 %% %.1f mm\n", 1e3 * score.position.mean(),
-	       1e3 * score.position.quantile(0.5), 1e3 * score.position.quantile(0.9));
+	if (!score.position.values.empty())
+		printf("3-D error         mean %.1f mm, median %.1f mm, 90 %% %.1f mm\n", 1e3 * score.position.mean(),
+		       1e3 * score.position.quantile(0.5), 1e3 * score.position.quantile(0.9));
 	for (HitErrors &errors : score.hits)
 		if (!errors.position.values.empty())
 			printf("hit, %.1f s ahead  mean %.1f cm and %.1f ms, median %.1f cm and %.1f ms, of %zu\n",

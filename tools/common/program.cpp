@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
+#include <unistd.h>
 
 namespace pong
 {
@@ -60,7 +61,8 @@ int run_program(const char *name, int argc, char **argv, int (*body)(int argc, c
 
 void say(const std::string &sentence)
 {
-	fprintf(stderr, "%s: %s\n", program_name, sentence.c_str());
+	// On a terminal a row that is redrawn in place may stand in this line.
+	fprintf(stderr, "%s%s: %s\n", isatty(STDERR_FILENO) ? "\r\033[K" : "", program_name, sentence.c_str());
 }
 
 bool stop_requested()

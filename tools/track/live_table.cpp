@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "clock.hpp"
@@ -22,6 +23,19 @@ std::string cell(double value, int width, int decimals)
 	return std::isfinite(value) ? pong::format("%*.*f", width, decimals, value) : pong::format("%*s", width, "-");
 }
 
+// Columns of the terminal; of a file, more than enough.
+int columns()
+{
+	winsize size = {};
+	return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 1000;
+}
+
+// Whether a row with the latencies fits.
+bool wide()
+{
+	return columns() > 91;
+}
+
 } // namespace
 
 Live::Live() : terminal_(isatty(STDERR_FILENO)), drawn_ns_(monotonic_ns())
@@ -36,9 +50,9 @@ Live::~Live()
 
 void Live::begin_table()
 {
-	fputs("state      flight     x m     y m     z m  hit x m hit y m  in ms   pairs/s balls/s   latency    p99 "
-	      "ms\n",
-	      stderr);
+	fprintf(stderr, "%-9s%7s%7s%7s%7s%8s%8s%7s%8s%8s", "state", "flight", "x m", "y m", "z m", "hit x m", "hit y m",
+		"in ms", "pairs/s", "balls/s");
+	fputs(wide() ? " latency p99 ms\n" : "\n", stderr);
 	begun_ = true;
 }
 
@@ -86,16 +100,18 @@ void Live::draw_row(const StatusReport &report) const
 	const double nothing = NAN;
 	const bool hit = tracking_ && has_hit_;
 	std::string row = pong::format("%-9s", tracking_ ? "tracking" : "searching");
-	row += cell(tracking_ ? ball_.track : nothing, 8, 0);
+	row += cell(tracking_ ? ball_.track : nothing, 7, 0);
 	for (const double position : ball_.position)
-		row += cell(tracking_ ? position : nothing, 8, 3);
-	row += cell(hit ? hit_.position[0] : nothing, 9, 3);
+		row += cell(tracking_ ? position : nothing, 7, 3);
+	row += cell(hit ? hit_.position[0] : nothing, 8, 3);
 	row += cell(hit ? hit_.position[1] : nothing, 8, 3);
 	row += cell(hit ? static_cast<double>(hit_.utime - ball_.utime) * 1e-3 : nothing, 7, 0);
-	row += cell(report.pair_rate, 10, 1);
+	row += cell(report.pair_rate, 8, 1);
 	row += cell(report.ball_rate, 8, 1);
-	row += cell(1e3 * report.latency_median, 10, 2);
-	row += cell(1e3 * report.latency_p99, 7, 2);
+	if (wide()) {
+		row += cell(1e3 * report.latency_median, 8, 2);
+		row += cell(1e3 * report.latency_p99, 7, 2);
+	}
 	fputs(row.c_str(), stderr);
 }
 
