@@ -81,6 +81,20 @@ check "what is too poor ends with 1" test $? -eq 1
 "$bin/pongeye-calibrate" --board 9x6 --square 0.04 --no-table --left "${left[@]:4:3}" --right "${right[@]:4:3}" \
 	--output "$work/no.toml" 2>"$work/err"
 check "a wrong board size is named" grep -q "not of the size that --board says\|more corners than --board says" "$work/err"
+calibrate --left "$work/boards/*-left.png" --right "$work/boards/*-right.png" --flat nowhere
+check "a flat pair that is none is named" grep -q -- '--flat nowhere: no pair has this name' "$work/err"
+mkdir "$work/swapped"
+for picture in "$work"/boards/*-left.png; do
+	name=$(basename "$picture" -left.png)
+	ln -s "$picture" "$work/swapped/$name-right.png"
+	ln -s "$work/boards/$name-right.png" "$work/swapped/$name-left.png"
+done
+calibrate --left "$work/swapped/*-left.png" --right "$work/swapped/*-right.png" --no-table
+check "left and right swapped ends with 1" test $? -eq 1
+check "and is said" grep -q 'are left and right swapped?' "$work/err"
+calibrate --board 8x11 --left "$work/boards/*-left.png" --right "$work/boards/*-right.png" --flat 000000 --accept 1000
+check "a lying board that is turned ends with 1" test $? -eq 1
+check "and is said" grep -q 'not along the table (+z)' "$work/err"
 "$bin/pongeye-calibrate" --board 9by6 2>/dev/null
 check "a board that is none ends with 2" test $? -eq 2
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "arguments.hpp"
+#include "camera_placement.hpp"
 #include "live.hpp"
 #include "program.hpp"
 #include "refine.hpp"
@@ -50,12 +51,15 @@ void tell_volume(const Volume &volume, const std::vector<Advice> &advice)
 		"expected 3-D error %.2f mm in the mean, %.2f mm at most, over the %.0f %% of the volume in view\n",
 		volume.mean, volume.worst, 100 * volume.seen);
 	for (const Advice &one : advice)
-		fprintf(stderr, "one more board %s: %.2f mm\n", one.text.c_str(), one.mean);
+		fprintf(stderr, "one more board %s would make it %.2f mm\n", one.text.c_str(), one.mean);
 }
 
-// Why a calibration is too poor to play with; empty where it is not.
+// Why a calibration is not to be played with; empty where it is.
 std::string too_poor(const Arguments &arguments, const Session &session, const Volume &volume)
 {
+	const std::string wrong = misplaced(session.calibration.camera, !arguments.no_table);
+	if (!wrong.empty())
+		return wrong;
 	if (arguments.profile == PONG_PAPER)
 		return session.calibration.rms > 1
 			       ? pong::format("corners miss by %.1f px rms", session.calibration.rms)
@@ -109,6 +113,7 @@ int calibrate_rig(const Arguments &arguments, Session &session)
 	const double square = measured_square(session.calibration.camera, arguments.board, session);
 	fprintf(stderr, "rms %.4f px; squares measure %.3f mm, are %.3f mm (%+.3f %%)\n", session.calibration.rms,
 		1e3 * square, 1e3 * arguments.board.square, 100 * (square / arguments.board.square - 1));
+	fprintf(stderr, "%s\n", describe_placement(session.calibration.camera).c_str());
 	tell_volume(volume, advice);
 	for (const std::string &note : session.notes)
 		fprintf(stderr, "%s\n", note.c_str());
@@ -116,8 +121,7 @@ int calibrate_rig(const Arguments &arguments, Session &session)
 		write_report(arguments.report, session, volume, advice);
 	const std::string poor = too_poor(arguments, session, volume);
 	if (!poor.empty()) {
-		pong::say("too poor to play with: " + poor +
-			  (arguments.force ? "" : "; --force writes it all the same"));
+		pong::say("no rig to play with: " + poor + (arguments.force ? "" : "; --force writes it all the same"));
 		if (!arguments.force)
 			return 1;
 	}

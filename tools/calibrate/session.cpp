@@ -83,8 +83,18 @@ pong_calibrate_settings settings_for(const Arguments &arguments, const Session &
 	return settings;
 }
 
+// The pair that --flat names, by its pictures' name.
+void check_flat(const std::string &flat, const std::vector<Pair> &pairs)
+{
+	const auto named = [&](const Pair &pair) { return pair.name == flat; };
+	if (!flat.empty() && !pairs.empty() && std::none_of(pairs.begin(), pairs.end(), named))
+		throw pong::Failure(pong::format("--flat %s: no pair has this name; the first is %s, the last %s",
+						 flat.c_str(), pairs.front().name.c_str(), pairs.back().name.c_str()));
+}
+
 void calibrate_once(const Arguments &arguments, Session &session)
 {
+	check_flat(arguments.flat, session.pairs);
 	build_views(arguments, session);
 	if (session.used.empty())
 		throw pong::Failure(session.pairs.empty()
