@@ -242,12 +242,16 @@ install: all
 help:
 	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
 	@echo "  make check      the tests, without installing anything"
+	@echo "  make deps       the packages that are missing; make test and make demo begin with it"
+	@echo "  make firmware   the trigger's microcontroller;  make flash PORT=/dev/ttyACM0: onto a board"
+	@echo "  make test-trigger   the firmware in an emulator, and the tracker triggered by it"
+	@echo "  make test-hil   pongeye-trigger in a virtual machine with GPIO lines and USB"
 	@echo "  make sanitize   the tests under AddressSanitizer and UndefinedBehaviorSanitizer; SUITE=faults: others"
 	@echo "  make tsan       the unit tests under ThreadSanitizer"
 	@echo "  make soak       the tracker under random faults, for MINUTES=10"
 	@echo "  make latency    how long the tracker takes from the last packet to the message"
 	@echo "  make loss       what 0.1 % of the packets, when they are lost, cost in pairs"
-	@echo "  make fuzz       any bytes into every parser, under sanitizers; FUZZ_SECONDS=300 each"
+	@echo "  make fuzz       any bytes into every parser, under sanitizers, 20 s each; FUZZ_SECONDS=300: longer"
 	@echo "  make test-arm   unit tests of the library for 64-bit ARM, run by qemu"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"

@@ -21,7 +21,8 @@ off=$(sed -nE 's/.*squares measure .*\(([-+.0-9]+) %\).*/\1/p' "$work/live.log")
 check "squares measure what they are to 0.3 % ($off %)" awk "BEGIN { exit !($off < 0.3 && $off > -0.3) }"
 check "the kept pictures calibrate again" "$bin/pongeye-calibrate" "${board[@]}" --left "$work"/pictures/*-left.png \
 	--right "$work"/pictures/*-right.png --output "$work/again.toml"
-cameras() { sed -n '/^\[left\]/,/^\[calibration\]/p' "$1"; }
+check "the rig names the cameras as before" test "$(grep -c '^camera = "127.0.0.[12]"' "$work/rig.toml")" -eq 2
+cameras() { sed -n '/^\[left\]/,/^\[calibration\]/p' "$1" | grep -v '^camera'; }
 check "to the same cameras" test "$(cameras "$work/rig.toml")" = "$(cameras "$work/again.toml")"
 check_refusal "where nothing says where the table is, it is said before pictures are taken" 2 "where is the table?" \
 	"$bin/pongeye-calibrate" --board 9x6 --square 0.025 --cameras "$work/true.toml"

@@ -97,6 +97,17 @@ int check_rig(const Arguments &arguments, Session &session)
 	return 0;
 }
 
+// Calibrated live, the cameras go on being found as before.
+void keep_ids(const std::string &path, pong_rig *rig)
+{
+	pong_rig before;
+	pong_error error;
+	if (pong_rig_load(path.c_str(), &before, &error) < 0)
+		throw pong::Failure(error.text);
+	for (int side = 0; side < 2; side++)
+		std::copy_n(before.camera[side].id, sizeof before.camera[side].id, rig->camera[side].id);
+}
+
 int calibrate_rig(const Arguments &arguments, Session &session)
 {
 	locate_table(arguments, session);
@@ -125,7 +136,10 @@ int calibrate_rig(const Arguments &arguments, Session &session)
 		if (!arguments.force)
 			return 1;
 	}
-	write_rig(arguments.output, make_rig(session.calibration.camera, table),
+	pong_rig rig = make_rig(session.calibration.camera, table);
+	if (!arguments.cameras.empty())
+		keep_ids(arguments.cameras, &rig);
+	write_rig(arguments.output, rig,
 		  describe_calibration(session, volume, static_cast<pong_profile>(arguments.profile)));
 	return 0;
 }

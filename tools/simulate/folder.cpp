@@ -50,6 +50,12 @@ void make_folder(const std::string &path)
 	std::filesystem::create_directories(path, error);
 	if (error)
 		throw pong::Failure(path + ": cannot make this folder: " + error.message());
+	for (const auto &entry : std::filesystem::directory_iterator(path, error))
+		if (entry.path().extension() == ".png") {
+			pong::say(path +
+				  " holds pictures already: those that are not written anew stay among the new ones");
+			return;
+		}
 }
 
 } // namespace
