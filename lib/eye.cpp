@@ -123,9 +123,9 @@ void follow_ball(pong_eye &eye, Match match, pong_sight *sight)
 	const Trust trust = trust_of(match, eye.side, eye.settings);
 	if (cluttered(eye.side))
 		match.point = doubted(match);
-	const pong_track_event event = is_hopeless(match, trust, eye.flight)
-					       ? PONG_TRACK_REJECTED
-					       : push_point(*eye.track, match.point, trust);
+	const bool believed =
+		!is_hopeless(match, trust, eye.flight) && !is_hardly_known(match.point, trust, eye.settings);
+	const pong_track_event event = believed ? push_point(*eye.track, match.point, trust) : PONG_TRACK_REJECTED;
 	if (event == PONG_TRACK_REJECTED) {
 		sight->outcome = PONG_REJECTED;
 		return;

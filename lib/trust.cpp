@@ -20,7 +20,7 @@ const double slow = 2.5;              // people's arms are, m/s
 const int slow_points = 3;            // of a flight tell its speed
 const int doubtful_most = 8;          // doubtful points in a row: that is an arm
 const double error_amid_others = 1.5; // times what the fits tell, of a point amid what else moves
-const double error_most = 0.13;       // standard deviation of a point that is not certain, m
+const double error_most = 0.13;       // standard deviation of a doubtful point, m
 
 // By how much what both pictures show there differs from all that was near it before: nothing but a ball comes so soon.
 double freshness(const Match &match, const Side side[2])
@@ -70,8 +70,6 @@ Trust trust_of(const Match &match, const Side side[2], const pong_settings &sett
 
 bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight)
 {
-	if (trust != Trust::certain && error_of(match.point) > error_most)
-		return true;
 	if (trust != Trust::none)
 		return false;
 	if (is_slow(flight))
@@ -80,6 +78,12 @@ bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight)
 	return !(match.off < 1) &&
 	       (!has_reach(flight, &expected) || flight.doubtful >= doubtful_most ||
 		(vector_of(match.point.position) - vector_of(expected.state.position)).norm() > expected.reach);
+}
+
+bool is_hardly_known(const pong_point &point, Trust trust, const pong_settings &settings)
+{
+	return settings.detect.method != PONG_DETECT_DIFFERENCE && trust != Trust::certain &&
+	       error_of(point) > error_most;
 }
 
 void count_point(const Match &match, pong_track_event event, FollowedFlight *flight)

@@ -11,9 +11,11 @@ namespace pong
 
 Trust trust_of(const Match &match, const Side side[2], const pong_settings &settings);
 
-// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball; and none that
-// is not certain, where it is hardly known.
+// Amid what else moves, a doubtful point that begins no flight is only believed where one has the ball.
 bool is_hopeless(const Match &match, Trust trust, const FollowedFlight &flight);
+
+// A point that may be anywhere, and of which nothing else says that it is the ball. By the paper's method all count.
+bool is_hardly_known(const pong_point &point, Trust trust, const pong_settings &settings);
 
 // The flight has begun with this point, or has got it besides.
 void count_point(const Match &match, pong_track_event event, FollowedFlight *flight);

@@ -62,17 +62,20 @@ TEST(Hopeless, AreMoreThanEightDoubtfulOnesInARow)
 	EXPECT_EQ(flight.last.position[1], there[1] + 0.01);
 }
 
-// A point that is known to no better than 0.13 m, unless nothing else can look so.
-TEST(Hopeless, IsWhatIsHardlyKnown)
+// No better than to 0.13 m, in the worst direction.
+TEST(HardlyKnown, UnlessNothingElseCanLookSo)
 {
-	const pong::FollowedFlight flight = flight_of_speed(6);
-	pong::Match match = match_at(0, 0.5);
-	match.point.covariance[2][2] = 0.12 * 0.12;
-	EXPECT_FALSE(is_hopeless(match, Trust::likely, flight));
-	match.point.covariance[2][2] = 0.14 * 0.14;
-	EXPECT_TRUE(is_hopeless(match, Trust::none, flight));
-	EXPECT_TRUE(is_hopeless(match, Trust::likely, flight));
-	EXPECT_FALSE(is_hopeless(match, Trust::certain, flight));
+	pong_settings settings;
+	pong_settings_defaults(PONG_BEST, &settings);
+	pong_point point = {};
+	point.covariance[2][2] = 0.12 * 0.12;
+	EXPECT_FALSE(is_hardly_known(point, Trust::none, settings));
+	point.covariance[2][2] = 0.14 * 0.14;
+	EXPECT_TRUE(is_hardly_known(point, Trust::none, settings));
+	EXPECT_TRUE(is_hardly_known(point, Trust::usual, settings));
+	EXPECT_FALSE(is_hardly_known(point, Trust::certain, settings));
+	pong_settings_defaults(PONG_PAPER, &settings);
+	EXPECT_FALSE(is_hardly_known(point, Trust::usual, settings));
 }
 
 // What was doubtful of the flight before says nothing of a new one.
