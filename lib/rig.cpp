@@ -143,6 +143,9 @@ void normalise(const Document &document, const char *section, double P[3][4])
 	if (!(scale > 0) || !(std::abs(determinant) > 1e-9 * std::pow(matrix.leftCols<3>().norm(), 3)))
 		document.refuse(section, "P", "is not a camera: its left 3x3 part cannot be inverted");
 	matrix /= determinant > 0 ? scale : -scale;
+	for (double &number : matrix.reshaped())
+		if (number == 0)
+			number = 0; // not -0, which is read again as 0
 	store(matrix, P);
 }
 
