@@ -81,7 +81,7 @@ void expect(const pong_rig &rig, const pong_settings &settings, const FollowedFl
 		Expectation &there = expectations[side];
 		there.streaked =
 			flight.expecting && pong_streak(&rig.camera[side], expected.position, expected.velocity,
-							settings.locate.exposure, there.streak);
+							there.exposure, there.streak);
 		there.seen_once = flight.points == 1;
 		there.seconds = flight.since_last * 1e-6;
 		std::copy_n(flight.last.position, 3, there.position);

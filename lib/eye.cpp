@@ -1,5 +1,6 @@
 // The stages joined: push a stereo pair, get ball and prediction.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -160,6 +161,8 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 	Track track(pong_track_new(&rig, &settings, &error));
 	if (!track)
 		throw Fault{PONG_ERROR_MEMORY, error.text};
+	Expectation expectation = {};
+	expectation.exposure = settings.locate.exposure;
 	return new pong_eye{rig,
 			    settings,
 			    {Side(rig, PONG_LEFT, settings), Side(rig, PONG_RIGHT, settings)},
@@ -167,7 +170,7 @@ pong_eye *make_eye(const pong_rig &rig, const pong_settings &settings)
 			    false,
 			    0,
 			    {},
-			    {}};
+			    {expectation, expectation}};
 }
 
 } // namespace
@@ -182,6 +185,12 @@ pong_eye *pong_eye_new(const pong_rig *rig, const pong_settings *settings, pong_
 void pong_eye_free(pong_eye *eye)
 {
 	delete eye;
+}
+
+void pong_eye_set_exposure(pong_eye *eye, pong_side side, double exposure)
+{
+	if (eye->settings.locate.exposure == 0 && std::isfinite(exposure))
+		eye->side_expected[side].exposure = std::max(exposure, 0.0);
 }
 
 int pong_eye_expect(pong_eye *eye, int64_t utime)

@@ -315,7 +315,8 @@ typedef struct pong_settings {
 	struct {
 		pong_locate_method method;
 		double sigma;    /* standard deviation of a centre, per axis, px, where the method tells none */
-		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown */
+		double exposure; /* of the pictures, s: how long the streak of a flying ball is; 0 where unknown, or
+				  * where pong_eye_set_exposure tells it */
 	} locate;
 	struct {
 		pong_reconstruct_method method;
@@ -641,6 +642,10 @@ typedef struct pong_eye pong_eye;
 /* Both structs are copied. Returns NULL and says why where the rig or a setting is impossible. */
 PONG_API pong_eye *pong_eye_new(const pong_rig *rig, const pong_settings *settings, pong_error *error);
 PONG_API void pong_eye_free(pong_eye *eye);
+
+/* How long a camera exposes its pictures, s: from the next pair on a flying ball's streak is known. It stays so until it is
+ * told anew; 0: unknown. Where settings->locate.exposure says it, that stands. */
+PONG_API void pong_eye_set_exposure(pong_eye *eye, pong_side side, double exposure);
 
 /* Look at one stereo pair; the pictures are not kept. *sight is always filled.
  * Returns PONG_FOUND with a ball, PONG_NONE without, PONG_ERROR_VALUE if a picture has not its camera's size. */

@@ -193,7 +193,7 @@ bool Side::streak_of(const pong_detection &found, double streak[3]) const
 		std::copy_n(expected_.streak, 3, streak);
 	return expected_.streaked ||
 	       (expected_.seen_once && pong_streak_since(&camera_, expected_.position, expected_.seconds, &found,
-							 settings_.locate.exposure, streak));
+							 expected_.exposure, streak));
 }
 
 // The centre on the original picture. Of a faint ball the noise leaves no edges that are to be trusted: there the

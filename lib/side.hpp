@@ -20,9 +20,10 @@ template<auto free> struct Deleter {
 
 // Where the ball that is followed must be now in one camera's picture, and how far it moves there during the exposure.
 struct Expectation {
+	double exposure;         // s; 0: not known
 	bool windowed, streaked; // whether what follows is known
 	pong_window window;
-	double streak[3];
+	double streak[3]; // while the picture is exposed
 	bool seen_once; // before: there, so many seconds ago
 	double position[3], seconds;
 };

@@ -118,10 +118,10 @@ TEST(Expect, TheStreakIsThatOfTheFlight)
 {
 	const pong_rig rig = test_rig();
 	pong_settings settings = best_settings();
-	settings.locate.exposure = 0.002;
 	pong::FollowedFlight flight = flight_at(0.1, 0.3, 2, 0.001);
 	flight.expected.velocity[0] = 10;
-	pong::Expectation there[2];
+	pong::Expectation there[2] = {};
+	there[PONG_LEFT].exposure = 0.002;
 	pong::expect(rig, settings, flight, false, there);
 	ASSERT_TRUE(there[PONG_LEFT].streaked && !there[PONG_LEFT].seen_once);
 	const double size = pong_apparent_size(&rig.camera[PONG_LEFT], flight.expected.position, 0.020);

@@ -110,6 +110,36 @@ TEST_F(EagerEyeTest, SeesWhatIsSeenPairByPair)
 	EXPECT_GT(balls, 20);
 }
 
+// The cameras' exposure is the eye's from the next pair on, as if its settings had said so.
+TEST_F(EagerEyeTest, TellsTheEyeHowLongTheCamerasExpose)
+{
+	const auto told = eye(), untold = eye();
+	settings_.locate.exposure = 0.002;
+	const auto set = eye();
+	EagerEye eager(told.get(), 0);
+	int balls = 0, alike_untold = 0;
+	for (int frame = 0; frame < FRAMES; frame++) {
+		StereoPair now = pair(frame);
+		now.exposure_us[PONG_LEFT] = now.exposure_us[PONG_RIGHT] = 2000;
+		pong_sight sight, expected, other;
+		see(eager, now, sight);
+		pong_eye_push(set.get(), now.utime, frame, &now.left, &now.right, &expected, nullptr);
+		pong_eye_push(untold.get(), now.utime, frame, &now.left, &now.right, &other, nullptr);
+		EXPECT_EQ(memcmp(&sight, &expected, sizeof sight), 0) << frame;
+		balls += sight.has_ball;
+		alike_untold += memcmp(&sight.ball.centre, &other.ball.centre, sizeof sight.ball.centre) == 0;
+	}
+	EXPECT_GT(balls, 20);
+	EXPECT_LT(alike_untold, FRAMES - 20);
+	pong_eye_set_exposure(set.get(), PONG_LEFT, 0.01); // what the settings say stands
+	StereoPair last = pair(FRAMES - 1);
+	last.utime += 9091;
+	pong_sight sight, expected;
+	see(eager, last, sight);
+	pong_eye_push(set.get(), last.utime, FRAMES - 1, &last.left, &last.right, &expected, nullptr);
+	EXPECT_EQ(memcmp(&sight, &expected, sizeof sight), 0);
+}
+
 TEST_F(EagerEyeTest, LearnsByHowMuchTheCamerasTimesDiffer)
 {
 	const auto one = eye();

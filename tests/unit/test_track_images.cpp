@@ -145,7 +145,7 @@ TEST_F(TrackImages, NoFolder)
 TEST_F(TrackImages, ReadsPixels)
 {
 	write_pair("7");
-	const auto source = track::open_images(folder(), 100);
+	const auto source = track::open_images(folder(), 100, 0);
 	StereoPair pair;
 	ASSERT_EQ(source->next(pair), Next::PAIR);
 	EXPECT_EQ(pair.frame, 7);
@@ -162,7 +162,7 @@ TEST_F(TrackImages, PictureWithoutPartnerIsSkippedAndCounted)
 	write_picture("2-left.png");
 	write_picture("3-right.png");
 	write_pair("4");
-	const auto source = track::open_images(folder(), 100);
+	const auto source = track::open_images(folder(), 100, 0);
 	StereoPair pair;
 	ASSERT_EQ(source->next(pair), Next::PAIR);
 	ASSERT_EQ(source->next(pair), Next::PAIR);
@@ -174,7 +174,7 @@ TEST_F(TrackImages, PictureWithoutPartnerIsSkippedAndCounted)
 TEST_F(TrackImages, NoPartnersAtAll)
 {
 	write_picture("2-left.png");
-	EXPECT_EQ(failure_of([&] { track::open_images(folder(), 100); }),
+	EXPECT_EQ(failure_of([&] { track::open_images(folder(), 100, 0); }),
 		  folder() + ": no picture has a partner of the other side");
 }
 
@@ -182,7 +182,7 @@ TEST_F(TrackImages, WhatIsNoPicture)
 {
 	write_picture("1-left.png");
 	write("1-right.png", "not a picture");
-	const auto source = track::open_images(folder(), 100);
+	const auto source = track::open_images(folder(), 100, 0);
 	StereoPair pair;
 	EXPECT_EQ(failure_of([&] { source->next(pair); }), folder() + "/1-right.png: cannot be read as a picture");
 }

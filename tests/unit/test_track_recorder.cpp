@@ -52,7 +52,8 @@ protected:
 			frame,
 			{pixels_[PONG_LEFT].data(), WIDTH, HEIGHT, STRIDE},
 			{pixels_[PONG_RIGHT].data(), WIDTH, HEIGHT, STRIDE},
-			0};
+			0,
+			{2000, 2001}};
 	}
 
 	static uint8_t pixel(int side, int u, int v, int64_t frame)
@@ -119,6 +120,8 @@ TEST_F(RecorderTest, WholePairsComeBack)
 		EXPECT_EQ(read.utime, 1000000 + PERIOD * frame);
 		EXPECT_TRUE(is_frame(read.left, PONG_LEFT, frame));
 		EXPECT_TRUE(is_frame(read.right, PONG_RIGHT, frame));
+		EXPECT_EQ(read.exposure_us[PONG_LEFT], 2000);
+		EXPECT_EQ(read.exposure_us[PONG_RIGHT], 2001);
 	}
 	EXPECT_EQ(replay.next(read), Next::END);
 }

@@ -44,6 +44,12 @@ private:
 	cv::Mat picture_;
 };
 
+// What the pictures don't tell, as cameras do.
+std::string exposure_text(double exposure)
+{
+	return pong::format("\n[locate]\nexposure = %g # s\n", exposure);
+}
+
 void make_folder(const std::string &path)
 {
 	std::error_code error;
@@ -64,7 +70,7 @@ int64_t write_folder(const FolderSettings &settings, const Scene &scene, uint64_
 {
 	make_folder(settings.path);
 	const Rig rig = make_rig(scene.rig);
-	write_text(settings.path + "/rig.toml", rig_text(rig, scene.hit_z));
+	write_text(settings.path + "/rig.toml", rig_text(rig, scene.hit_z) + exposure_text(scene.picture.exposure));
 	Truth truth(settings.path + "/truth.txt", rig);
 	std::optional<BoardTruth> boards;
 	if (scene.show == Show::board)

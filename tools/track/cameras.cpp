@@ -204,6 +204,8 @@ private:
 			pair_.miscounted ? 0 : numbering_.frame(exposure_begin(PONG_LEFT, pair_.utime), pair_.frame);
 		pair = {pair_.utime, frame, image_of(left.buffer), image_of(right.buffer),
 			std::max(left.arrival_ns, right.arrival_ns)};
+		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+			pair.exposure_us[side] = exposure_us(side);
 		lent_[PONG_LEFT] = left;
 		lent_[PONG_RIGHT] = right;
 		has_pair_ = false;
@@ -221,6 +223,7 @@ private:
 		pair.utime = letter.picture.utime;
 		(letter.side == PONG_LEFT ? pair.left : pair.right) = image_of(letter.picture.buffer);
 		pair.arrival_ns = letter.picture.arrival_ns;
+		pair.exposure_us[letter.side] = exposure_us(letter.side);
 		lent_[letter.side] = letter.picture;
 		return Next::ALONE;
 	}
@@ -260,6 +263,11 @@ private:
 			pulse_ns_ = monotonic_ns();
 		}
 		numbering_.pass_time(unix_ns() / 1000);
+	}
+
+	int32_t exposure_us(pong_side side) const
+	{
+		return static_cast<int32_t>(seats_[side]->exposure_ns() / 1000);
 	}
 
 	// The trigger's edge, for a picture whose middle of the exposure was at `utime`.

@@ -99,6 +99,14 @@ void EagerEye::learn_difference()
 		difference_ += GAIN * (static_cast<double>(right.utime - left.utime) - difference_);
 }
 
+// From the next pair on: where this one's ball must be was worked out before its pictures came.
+void EagerEye::take_exposures(const StereoPair &pair)
+{
+	for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
+		if (pair.exposure_us[side] > 0)
+			pong_eye_set_exposure(eye_, side, pair.exposure_us[side] * 1e-6);
+}
+
 void EagerEye::end(bool complete)
 {
 	pong_eye_keep(eye_);
@@ -122,6 +130,7 @@ void EagerEye::look(StereoPair &pair, pong_sight &sight)
 	if (*error_.text)
 		throw pong::Failure(pong::format("pair %lld: %s", static_cast<long long>(pair.frame), error_.text));
 	pong_eye_join(eye_, pair.frame, &sight);
+	take_exposures(pair);
 }
 
 void EagerEye::predict(pong_sight &sight)
@@ -140,6 +149,7 @@ void EagerEye::look_alone(StereoPair &alone)
 		for (const pong_side side : {PONG_LEFT, PONG_RIGHT})
 			if (!parts_[side].pixels && image_of(alone, side).pixels)
 				look_at(side, image_of(alone, side));
+	take_exposures(alone);
 	end(false);
 }
 

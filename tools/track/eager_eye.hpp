@@ -53,6 +53,7 @@ private:
 	void end(bool complete);
 	void look_at(pong_side side, const pong_image &image);
 	void learn_difference();
+	void take_exposures(const StereoPair &pair);
 
 	pong_eye *const eye_;
 	const double tolerance_; // us

@@ -91,7 +91,8 @@ void set_times_by_table(FilesByName &files, const std::string &path)
 class ImageSource : public Source
 {
 public:
-	ImageSource(const std::string &folder, double fps) : files_(list_images(folder, fps))
+	ImageSource(const std::string &folder, double fps, double exposure)
+		: files_(list_images(folder, fps)), exposure_us_(static_cast<int32_t>(std::lround(exposure * 1e6)))
 	{
 		const auto is_alone = [](const ImageFiles &files) { return files.left.empty() || files.right.empty(); };
 		const auto alone = std::find_if(files_.begin(), files_.end(), is_alone);
@@ -117,6 +118,7 @@ public:
 		pair.left = read(files.left, left_);
 		pair.right = read(files.right, right_);
 		pair.arrival_ns = monotonic_ns();
+		pair.exposure_us[PONG_LEFT] = pair.exposure_us[PONG_RIGHT] = exposure_us_;
 		return Next::PAIR;
 	}
 
@@ -139,6 +141,7 @@ private:
 	}
 
 	std::vector<ImageFiles> files_;
+	const int32_t exposure_us_;
 	size_t next_ = 0;
 	cv::Mat left_, right_;
 	Dropped dropped_;
@@ -167,9 +170,9 @@ std::vector<ImageFiles> list_images(const std::string &folder, double fps)
 	return list;
 }
 
-std::unique_ptr<Source> open_images(const std::string &folder, double fps)
+std::unique_ptr<Source> open_images(const std::string &folder, double fps, double exposure)
 {
-	return std::make_unique<ImageSource>(folder, fps);
+	return std::make_unique<ImageSource>(folder, fps, exposure);
 }
 
 } // namespace track

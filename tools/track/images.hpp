@@ -23,7 +23,8 @@ std::vector<ImageFiles> list_images(const std::string &folder, double fps);
 
 constexpr double DEFAULT_FPS = 110;
 
-// Reads the pairs one by one. A picture without the other side's is skipped and counted as unpaired.
-std::unique_ptr<Source> open_images(const std::string &folder, double fps);
+// Reads the pairs one by one. A picture without the other side's is skipped and counted as unpaired. exposure: of all
+// of them, s; 0: not known.
+std::unique_ptr<Source> open_images(const std::string &folder, double fps, double exposure);
 
 } // namespace track

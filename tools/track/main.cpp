@@ -191,7 +191,7 @@ int run(int argc, char **argv)
 	std::unique_ptr<Replay> replay = open_replay(arguments);
 	const Setup setup = open_setup(arguments, replay.get());
 	const CaptureSettings capture =
-		arguments.from_cameras() ? load_capture_settings(arguments.rig) : CaptureSettings();
+		arguments.rig.empty() ? CaptureSettings() : load_capture_settings(arguments.rig);
 	const pong::OwnedEye eye = open_eye(setup);
 	EagerEye eager(eye.get(), capture.rate);
 	Sinks sinks = open_sinks(arguments, setup);
@@ -199,7 +199,7 @@ int run(int argc, char **argv)
 	const std::unique_ptr<TriggerListener> listener = open_listener(arguments, sinks);
 	std::unique_ptr<Source> source = std::move(replay);
 	if (!arguments.images.empty())
-		source = open_images(arguments.images, arguments.fps);
+		source = open_images(arguments.images, arguments.fps, capture.exposure);
 	else if (!source)
 		source = open_live(setup, capture, listener.get(), fast_path);
 	Session session = {std::move(sinks), Status(monotonic_ns()), end_after(arguments.seconds)};

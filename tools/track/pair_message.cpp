@@ -10,8 +10,8 @@ namespace
 
 constexpr int LARGEST_SIDE = 16384; // px
 
-// A message is its type's hash, three numbers of 64 bits, twelve of 32, the size of the pixels, and the pixels.
-constexpr size_t HEAD = 8 + 3 * 8 + 12 * 4 + 4;
+// A message is its type's hash, three numbers of 64 bits, fourteen of 32, the size of the pixels, and the pixels.
+constexpr size_t HEAD = 8 + 3 * 8 + 14 * 4 + 4;
 
 uint32_t load32(const uint8_t *bytes)
 {
@@ -92,6 +92,7 @@ void encode(const StereoPair &pair, const Parts &parts, int64_t number, uint8_t 
 		head.part_v[side] = part.v;
 		head.part_width[side] = part.width;
 		head.part_height[side] = part.height;
+		head.exposure[side] = pair.exposure_us[side];
 		copy_rows(pixels, part.width, image.pixels + place_in(part, image.stride), image.stride, part);
 		pixels += size_of(part);
 	}
@@ -144,6 +145,7 @@ bool Unpacker::unpack(const pongeye::pair_t &message, StereoPair &pair)
 	pair.frame = message.frame;
 	for (const int side : {PONG_LEFT, PONG_RIGHT}) {
 		Canvas &canvas = canvas_[side];
+		pair.exposure_us[side] = message.exposure[side];
 		const Part part = part_of(message, side);
 		pong_image &image = side == PONG_LEFT ? pair.left : pair.right;
 		if (is_absent(message, side)) {

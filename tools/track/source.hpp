@@ -14,6 +14,7 @@ struct StereoPair {
 		       // is a pair that never came
 	pong_image left, right; // the source's own, until the next call of next()
 	int64_t arrival_ns;     // when the later picture was here, by monotonic_ns()
+	int32_t exposure_us[2] = {0, 0}; // by pong_side; 0: not known
 };
 
 // Pictures that never became a pair, by cause.
