@@ -200,13 +200,14 @@ pong_rig read_rig(const Document &document)
 	return rig;
 }
 
-// As many digits as bring back the same number. Zero has no sign: TOML's -0 is a whole number, and read as 0.
+// As many digits as bring back the same number: 15 always say what a person wrote. Zero has no sign: TOML's -0 is a
+// whole number, and read as 0.
 std::string digits(double value)
 {
 	char text[32];
 	if (value == 0)
 		return "0";
-	for (int precision = 1; precision <= 17; precision++) {
+	for (int precision = 15; precision <= 17; precision++) {
 		snprintf(text, sizeof text, "%.*g", precision, value);
 		if (strtod(text, nullptr) == value)
 			break;
