@@ -1,5 +1,5 @@
 // Any bytes as rig.toml: the rig, the settings, and what the cameras are told. What reads as a rig must be written and
-// read again to the same, and a camera in it can be changed in place, or is refused.
+// read again to the same, and a camera or a section in it can be changed in place, or is refused.
 #include <algorithm>
 #include <cstdlib>
 #include <string>
@@ -52,6 +52,17 @@ void check_edit(const std::string &text, const pong_rig &rig)
 	}
 }
 
+// Nothing but the section is changed.
+void check_section(const std::string &text, const pong_rig &rig)
+{
+	try {
+		if (written(read(calibrate::with_section(text, "fuzz", "note", "[note]\na = 1\n"))) != written(rig))
+			abort();
+	} catch (const pong::Failure &) {
+		return; // one sentence: as it should be
+	}
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -63,6 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	if (pong_rig_parse(text.c_str(), "fuzz", &rig, &error) > 0) {
 		check_round_trip(rig);
 		check_edit(text, rig);
+		check_section(text, rig);
 	}
 	pong_settings_defaults(PONG_BEST, &settings);
 	pong_settings_parse(text.c_str(), "fuzz", &settings, &error);
