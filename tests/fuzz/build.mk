@@ -2,7 +2,9 @@
 #   make fuzz                          20 s for each, from the inputs that are kept in tests/fuzz/corpus
 #   make fuzz FUZZ_SECONDS=300         longer;  FUZZ="rig gige": only these
 #   make fuzz-kept                     only those inputs, each once: what CI runs, since it is the same every time
-# An input that fails is left in build-fuzz/: build-fuzz/fuzz/rig build-fuzz/rig-crash-... runs it again.
+# Kept are inputs that once failed, by the name of the fault, and those that reach what no other does, by the name of the
+# function where they do. An input that fails is left in build-fuzz/: build-fuzz/fuzz/rig build-fuzz/rig-crash-... runs
+# it again.
 
 FUZZ_TARGETS := rig scene table points recording gige trigger firmware
 FUZZ ?= $(FUZZ_TARGETS)
