@@ -79,9 +79,8 @@ void expect(const pong_rig &rig, const pong_settings &settings, const FollowedFl
 	bool windowed = flight.expecting;
 	for (int side = 0; side < 2; side++) {
 		Expectation &there = expectations[side];
-		there.streaked =
-			flight.expecting && pong_streak(&rig.camera[side], expected.position, expected.velocity,
-							there.exposure, there.streak);
+		there.streaked = flight.expecting && pong_streak(&rig.camera[side], expected.position,
+								 expected.velocity, there.exposure, there.streak);
 		there.seen_once = flight.points == 1;
 		there.seconds = flight.since_last * 1e-6;
 		std::copy_n(flight.last.position, 3, there.position);

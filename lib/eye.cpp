@@ -1,6 +1,5 @@
 // The stages joined: push a stereo pair, get ball and prediction.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -189,8 +188,9 @@ void pong_eye_free(pong_eye *eye)
 
 void pong_eye_set_exposure(pong_eye *eye, pong_side side, double exposure)
 {
-	if (eye->settings.locate.exposure == 0 && std::isfinite(exposure))
-		eye->side_expected[side].exposure = std::max(exposure, 0.0);
+	const double longest = 0.1; // s; in more no streak is one
+	if (eye->settings.locate.exposure == 0)
+		eye->side_expected[side].exposure = exposure > 0 && exposure <= longest ? exposure : 0;
 }
 
 int pong_eye_expect(pong_eye *eye, int64_t utime)
