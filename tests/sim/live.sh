@@ -9,6 +9,9 @@ check "the cameras serve Aravis" "$BUILD/tests/gige_aravis"
 "$bin/pongeye-simulate" --cameras --rig "$work/rig.toml" --truth "$work/truth.txt" --seed 5 2>"$work/simulate.log" &
 simulator=$!
 while kill -0 $simulator 2>/dev/null && ! grep -q 'cameras on' "$work/simulate.log"; do sleep 0.1; done
+{ cat "$work/rig.toml"; printf '\n[capture]\nrate = 110\nexposure = 0.02\n'; } >"$work/slow.toml"
+check_refusal "an exposure longer than the time between pulses" 1 "exposes for 20 ms, but at 110 Hz a picture has 9.09 ms" \
+	"$bin/pongeye-track" --rig "$work/slow.toml" --output "$work/slow.txt"
 "$BUILD/tests/lcm_listener" 100 >"$work/heard" &
 listener=$!
 "$bin/pongeye-track" --rig "$work/rig.toml" --output "$work/track.txt" --seconds 7 2>"$work/track.log"

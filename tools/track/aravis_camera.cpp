@@ -147,6 +147,15 @@ void Camera::check_limits(const Wish &wish) const
 						 wish.what, wish.value, wish.unit, wish.least, wish.most));
 }
 
+// A camera that still exposes misses the next pulse.
+void Camera::check_rate(double exposure, double rate) const
+{
+	if (exposure * rate >= 1)
+		throw pong::Failure(pong::format("%s: it exposes for %g ms, but at %g Hz a picture has %.3g ms: set a "
+						 "shorter exposure in [capture] of rig.toml",
+						 name_.c_str(), exposure * 1e3, rate, 1e3 / rate));
+}
+
 // Automatic exposure and gain are switched off where there are any: the ball's brightness must not depend on the rest.
 void Camera::set_exposure(const CaptureSettings &settings)
 {
@@ -159,11 +168,13 @@ void Camera::set_exposure(const CaptureSettings &settings)
 		arv_camera_get_exposure_time_bounds(camera, &least, &most, fault);
 		fault.check(name_, "does not tell which exposures it can");
 		check_limits({"exposure", settings.exposure, least * 1e-6, most * 1e-6, "s"});
+		check_rate(settings.exposure, settings.rate);
 		arv_camera_set_exposure_time(camera, settings.exposure * 1e6, fault);
 		fault.check(name_, "cannot set the exposure");
 	}
 	exposure_ns_ = std::llround(arv_camera_get_exposure_time(camera, fault) * 1e3);
 	fault.check(name_, "does not tell its exposure");
+	check_rate(static_cast<double>(exposure_ns_) * 1e-9, settings.rate);
 	if (!settings.has_gain)
 		return;
 	if (arv_camera_is_gain_auto_available(camera, nullptr))

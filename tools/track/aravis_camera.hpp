@@ -106,6 +106,7 @@ private:
 
 	void set_picture(const pong_camera &camera, const CaptureSettings &settings);
 	void check_limits(const Wish &wish) const;
+	void check_rate(double exposure, double rate) const;
 	void set_exposure(const CaptureSettings &settings);
 	void set_trigger(const CaptureSettings &settings);
 	void set_ptp(const CaptureSettings &settings);

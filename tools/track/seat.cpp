@@ -153,7 +153,8 @@ bool Seat::open()
 			std::make_unique<Camera>(side_, settings_camera_, settings_, opened_ + 1, counts_, receive_);
 		address_ = camera->address();
 		exposure_ns_ = camera->exposure_ns();
-		tell(name_ + (opened_ ? ": it is back" : ": ready"));
+		tell(name_ + (opened_ ? ": it is back" : ": ready") +
+		     pong::format(", exposes for %g ms", static_cast<double>(exposure_ns_) * 1e-6));
 		const std::lock_guard<std::mutex> lock(mutex_);
 		camera_ = std::move(camera);
 		opened_++;
