@@ -252,6 +252,7 @@ help:
 	@echo "  make latency    how long the tracker takes from the last packet to the message"
 	@echo "  make loss       what 0.1 % of the packets, when they are lost, cost in pairs"
 	@echo "  make fuzz       any bytes into every parser, under sanitizers, 20 s each; FUZZ_SECONDS=300: longer"
+	@echo "  make fuzz-kept  only the inputs in tests/fuzz/corpus, each once"
 	@echo "  make test-arm   unit tests of the library for 64-bit ARM, run by qemu"
 	@echo "  make format     clang-format on every file;  make lint: clang-tidy"
 	@echo "  make clean      remove build/"

@@ -28,6 +28,20 @@ std::string read_file(const char *path)
 	return text;
 }
 
+namespace
+{
+
+// NaN where it is no number. A whole number of more digits than a double has is rounded; toml++ would not give it.
+double number_of(const toml::node &node)
+{
+	if (const auto *whole = node.as_integer())
+		return static_cast<double>(whole->get());
+	const auto *number = node.as_floating_point();
+	return number ? number->get() : NAN;
+}
+
+} // namespace
+
 struct Document::Implementation {
 	std::string name;
 	toml::table root;
@@ -92,7 +106,7 @@ double Document::number(const char *section, const char *key, double min, double
 	if (!node.is_number())
 		implementation_->refuse_at(node.source().begin, PONG_ERROR_FORMAT,
 					   sentence("%s.%s needs a number", section, key));
-	const double value = node.value<double>().value_or(NAN);
+	const double value = number_of(node);
 	if (!(value >= min && value <= max))
 		refuse(section, key, sentence("must lie between %g and %g, is %g", min, max, value));
 	return value;
@@ -108,7 +122,7 @@ std::vector<double> Document::numbers(const char *section, const char *key, size
 						    array ? array->size() : size_t{1}));
 	std::vector<double> values;
 	for (const toml::node &element : *array) {
-		const double value = element.is_number() ? element.value<double>().value_or(NAN) : NAN;
+		const double value = number_of(element);
 		if (!std::isfinite(value))
 			implementation_->refuse_at(element.source().begin, PONG_ERROR_FORMAT,
 						   sentence("%s.%s needs finite numbers", section, key));

@@ -133,19 +133,22 @@ pong_table read_table(const Document &document)
 }
 
 // Scale P so that its third row gives the depth in metres: its left part then is a unit vector along the optical axis.
-// One that is so already but for rounding stays to the last digit: a rig that is written and read again is the same.
+// One that is so already but for rounding stays to the last digit, and what is asked of a camera is asked of the scaled
+// one: a rig that is written and read again is the same.
 void normalise(const Document &document, const char *section, double P[3][4])
 {
 	Matrix34 matrix = matrix_of(P);
+	const auto axis = matrix.row(2).head<3>();
+	const auto is_unit = [&axis] { return std::abs(axis.norm() - 1) < 1e-12; };
+	if (!is_unit())
+		matrix /= axis.norm();
 	const double determinant = matrix.leftCols<3>().determinant();
-	const double rounding = 1e-12, norm = matrix.row(2).head<3>().norm();
-	const double scale = std::abs(norm - 1) < rounding ? 1 : norm;
-	if (!(scale > 0) || !(std::abs(determinant) > 1e-9 * std::pow(matrix.leftCols<3>().norm(), 3)))
+	if (!is_unit() || !(std::abs(determinant) > 1e-9 * std::pow(matrix.leftCols<3>().norm(), 3)))
 		document.refuse(section, "P", "is not a camera: its left 3x3 part cannot be inverted");
-	matrix /= determinant > 0 ? scale : -scale;
-	for (double &number : matrix.reshaped())
-		if (number == 0)
-			number = 0; // not -0, which is read again as 0
+	if (!matrix.allFinite())
+		document.refuse(section, "P", "is not a camera: its last column is too large");
+	if (determinant < 0)
+		matrix = -matrix;
 	store(matrix, P);
 }
 
@@ -197,11 +200,14 @@ pong_rig read_rig(const Document &document)
 	return rig;
 }
 
-// As many digits as bring back the same number.
+// As many digits as bring back the same number: 15 always say what a person wrote. Zero has no sign: TOML's -0 is a
+// whole number, and read as 0.
 std::string digits(double value)
 {
 	char text[32];
-	for (int precision = 1; precision <= 17; precision++) {
+	if (value == 0)
+		return "0";
+	for (int precision = 15; precision <= 17; precision++) {
 		snprintf(text, sizeof text, "%.*g", precision, value);
 		if (strtod(text, nullptr) == value)
 			break;

@@ -41,14 +41,24 @@ pong_detector *make_detector(const pong_region *region, const pong_settings &set
 	return detector;
 }
 
-// The detection's own centre stands; its error is that part of the radius.
-pong_centre centre_of(const pong_detection &found, double error)
+// How far beyond the picture's border the ball reaches, px.
+double cut_off(const pong_detection &found, const pong_camera &camera)
 {
+	const double radius = found.size / 2;
+	return std::max({0.0, radius - found.u, radius - found.v, found.u + radius - (camera.width - 1),
+			 found.v + radius - (camera.height - 1)});
+}
+
+// The detection's own centre stands. Its error is that part of the radius, and what the border cuts off of the ball.
+pong_centre centre_of(const pong_detection &found, double error, const pong_camera &camera)
+{
+	const double cut = cut_off(found, camera);
 	pong_centre centre = {};
 	centre.u = found.u;
 	centre.v = found.v;
 	centre.radius = found.size / 2;
-	centre.covariance[0][0] = centre.covariance[1][1] = std::pow(error * centre.radius, 2);
+	centre.covariance[0][0] = centre.covariance[1][1] = std::pow(error * centre.radius + cut, 2);
+	centre.flags = cut > 0 ? PONG_CENTRE_CUT : 0;
 	return centre;
 }
 
@@ -113,10 +123,16 @@ bool Side::add_place(const pong_detection &place, bool before_moved)
 	return true;
 }
 
+// Of a ball whose centre is beyond the border, what is seen tells too little of where it is.
+bool Side::is_in_picture(const pong_detection &place) const
+{
+	return place.u >= 0 && place.v >= 0 && place.u <= camera_.width - 1 && place.v <= camera_.height - 1;
+}
+
 void Side::look_near(double u, double v, double size)
 {
 	pong_detection place = {u, v, size, 0};
-	if (!find_circle_near(pictures_.earlier(0), usual_noise, &place))
+	if (!find_circle_near(pictures_.earlier(0), usual_noise, &place) || !is_in_picture(place))
 		return;
 	add_place(place, false);
 	if (freshness(place.u, place.v, size / 2) > fresh_enough)
@@ -125,6 +141,8 @@ void Side::look_near(double u, double v, double size)
 
 void Side::look_at(const pong_detection &place)
 {
+	if (!is_in_picture(place))
+		return;
 	// Of a faint outline nothing is located: where it was looked for would stand as if it had been found there.
 	if (place.contrast >= faint) {
 		add_place(place, false);
@@ -134,7 +152,7 @@ void Side::look_at(const pong_detection &place)
 	if (!add_place(place, false))
 		return;
 	Ball &guided = balls_[count_ - 1];
-	guided = {centre_of(place, guided_error), outline(place.u, place.v, place.size / 2).shown, true};
+	guided = {centre_of(place, guided_error, camera_), outline(place.u, place.v, place.size / 2).shown, true};
 	known_[count_ - 1] = ball_there;
 }
 
@@ -187,7 +205,7 @@ bool Side::locate(const pong_detection &found, bool before_moved, pong_centre *c
 	if (settings_.detect.method == PONG_DETECT_DIFFERENCE || found.contrast >= faint)
 		return pong_locate(&camera_, &pictures, &found, streak_of(found, streak) ? streak : nullptr, &settings_,
 				   centre);
-	*centre = centre_of(found, faint_error);
+	*centre = centre_of(found, faint_error, camera_);
 	return true;
 }
 

@@ -95,6 +95,7 @@ public:
 private:
 	void locate_all();
 	void add_moved();
+	bool is_in_picture(const pong_detection &place) const;
 	bool add_place(const pong_detection &place, bool before_moved);
 	bool locate(const pong_detection &found, bool before_moved, pong_centre *centre) const;
 	bool streak_of(const pong_detection &found, double streak[3]) const;

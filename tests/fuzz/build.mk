@@ -1,7 +1,10 @@
 # Fuzz targets: any bytes into whatever reads bytes from outside; included by the top Makefile. Needs clang.
 #   make fuzz                          20 s for each, from the inputs that are kept in tests/fuzz/corpus
 #   make fuzz FUZZ_SECONDS=300         longer;  FUZZ="rig gige": only these
-# An input that fails is left in build-fuzz/: build-fuzz/fuzz/rig build-fuzz/rig-crash-... runs it again.
+#   make fuzz-kept                     only those inputs, each once: what CI runs, since it is the same every time
+# Kept are inputs that once failed, by the name of the fault, and those that reach what no other does, by the name of the
+# function where they do. An input that fails is left in build-fuzz/: build-fuzz/fuzz/rig build-fuzz/rig-crash-... runs
+# it again.
 
 FUZZ_TARGETS := rig scene table points recording gige trigger firmware
 FUZZ ?= $(FUZZ_TARGETS)
@@ -16,12 +19,14 @@ FUZZ_BUILD := $(BUILD)-fuzz
 # outside of quotes. What it goes on to do is still watched.
 FUZZ_SANITIZE := address,undefined,fuzzer-no-link -fno-sanitize=unreachable
 
-.PHONY: fuzz fuzz-programs
-fuzz: deps
+.PHONY: fuzz fuzz-kept fuzz-programs
+fuzz: FUZZ_HOW = $(FUZZ_SECONDS)
+fuzz-kept: FUZZ_HOW = kept
+fuzz fuzz-kept: deps
 	@$(HAS_FUZZER) || $(MAKE) --no-print-directory deps DEBIAN_PACKAGES="$(FUZZ_DEBIAN_PACKAGES)"
 	@$(MAKE) --no-print-directory BUILD=$(FUZZ_BUILD) CC=clang CXX=clang++ OPTIMISE='-O1 -gline-tables-only' \
 	    SANITIZE='$(FUZZ_SANITIZE)' fuzz-programs
-	tests/fuzz/run $(FUZZ_BUILD) $(FUZZ_SECONDS) $(FUZZ)
+	tests/fuzz/run $(FUZZ_BUILD) $(FUZZ_HOW) $(FUZZ)
 
 fuzz-programs: $(FUZZ:%=$(BUILD)/fuzz/%)
 

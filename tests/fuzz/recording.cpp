@@ -1,4 +1,4 @@
-// Any bytes as a recording: every pixel of every pair that comes out is read.
+// Any bytes as a recording: every pixel of every picture that comes out is read.
 #include "bytes_file.hpp"
 #include "program.hpp"
 #include "track/replay.hpp"
@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 			// The rig is no rig: given another, the pictures are replayed all the same.
 		}
 		track::StereoPair pair;
-		while (replay.next(pair) == track::Next::PAIR) {
+		while (replay.next(pair) != track::Next::END) {
 			read_pixels(pair.left);
 			read_pixels(pair.right);
 		}

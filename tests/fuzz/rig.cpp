@@ -1,7 +1,7 @@
 // Any bytes as rig.toml: the rig, the settings, and what the cameras are told. What reads as a rig must be written and
-// read again to the same, and a camera in it can be changed in place, or is refused.
+// read again to the same, and a camera or a section in it can be changed in place, or is refused.
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -14,26 +14,50 @@
 namespace
 {
 
+std::string written(const pong_rig &rig)
+{
+	std::vector<char> text(static_cast<size_t>(pong_rig_format(&rig, nullptr, 0)) + 1);
+	pong_rig_format(&rig, text.data(), static_cast<int>(text.size()));
+	return text.data();
+}
+
+pong_rig read(const std::string &text)
+{
+	pong_rig rig;
+	pong_error error;
+	if (pong_rig_parse(text.c_str(), "again", &rig, &error) < 0)
+		abort();
+	return rig;
+}
+
 void check_round_trip(const pong_rig &rig)
 {
-	const int size = pong_rig_format(&rig, nullptr, 0);
-	std::vector<char> text(static_cast<size_t>(size) + 1);
-	pong_rig_format(&rig, text.data(), size + 1);
-	pong_rig again;
-	pong_error error;
-	if (pong_rig_parse(text.data(), "again", &again, &error) < 0)
-		abort();
-	std::vector<char> text_again(static_cast<size_t>(size) + 1);
-	if (pong_rig_format(&again, text_again.data(), size + 1) != size || text != text_again)
+	const std::string text = written(rig);
+	if (written(read(text)) != text)
 		abort();
 }
 
+// Nothing but the camera's P is changed.
 void check_edit(const std::string &text, const pong_rig &rig)
 {
 	pong_camera camera = rig.camera[PONG_RIGHT];
 	camera.P[0][3] += 1;
 	try {
-		calibrate::with_camera(text, "fuzz", PONG_RIGHT, camera);
+		pong_rig edited = read(calibrate::with_camera(text, "fuzz", PONG_RIGHT, camera));
+		std::copy_n(&rig.camera[PONG_RIGHT].P[0][0], 12, &edited.camera[PONG_RIGHT].P[0][0]);
+		if (written(edited) != written(rig))
+			abort();
+	} catch (const pong::Failure &) {
+		return; // one sentence: as it should be
+	}
+}
+
+// Nothing but the section is changed.
+void check_section(const std::string &text, const pong_rig &rig)
+{
+	try {
+		if (written(read(calibrate::with_section(text, "fuzz", "note", "[note]\na = 1\n"))) != written(rig))
+			abort();
 	} catch (const pong::Failure &) {
 		return; // one sentence: as it should be
 	}
@@ -50,6 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	if (pong_rig_parse(text.c_str(), "fuzz", &rig, &error) > 0) {
 		check_round_trip(rig);
 		check_edit(text, rig);
+		check_section(text, rig);
 	}
 	pong_settings_defaults(PONG_BEST, &settings);
 	pong_settings_parse(text.c_str(), "fuzz", &settings, &error);

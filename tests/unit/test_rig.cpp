@@ -1,4 +1,5 @@
 // rig.toml: what is read, what is refused, and where it says the fault lies.
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -97,6 +98,8 @@ TEST(Rig, SaysWhatIsWrongAndWhere)
 		 "rig.toml:3:5: left.P needs 12 numbers, has 3"},
 		{"[left]\nsize = [640, 480]\nP = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n" + right, PONG_ERROR_VALUE,
 		 "rig.toml:3:5: left.P is not a camera"},
+		{"[left]\nsize = [640, 480]\nP = [1e-9, 0, 0, 1e300, 0, 1e-9, 0, 0, 0, 0, 1e-9, 0]\n" + right,
+		 PONG_ERROR_VALUE, "rig.toml:3:5: left.P is not a camera: its last column is too large"},
 		{"[left]\nsize = [640, 480]\nP = [nan, 0, 320, 0, 0, -1, 240, 0, 0, 0, 1, 0]\n" + right,
 		 PONG_ERROR_FORMAT, "rig.toml:3:6: left.P needs finite numbers"},
 		{"[left]\nsize = [640.5, 480]\n" + right, PONG_ERROR_VALUE,
@@ -164,19 +167,49 @@ TEST(Rig, AnyCameraNameIsWrittenAndReadAgain)
 	EXPECT_STREQ(again.camera[PONG_LEFT].id, rig.camera[PONG_LEFT].id);
 }
 
-// To the last digit: P is scaled when it is read, and not again.
-TEST(Rig, AScaledCameraIsWrittenAsItIsRead)
+// What is read, written, read and written again: to the last digit.
+void expect_the_same_again(const std::string &text)
 {
-	pong_rig rig = test_rig(), read, again;
-	pong_error error = {};
-	rig.camera[PONG_RIGHT].P[2][0] = 3;
-	char text[8192], first[8192], second[8192];
-	pong_rig_format(&rig, text, sizeof text);
-	ASSERT_EQ(pong_rig_parse(text, "text", &read, &error), PONG_FOUND) << error.text;
-	pong_rig_format(&read, first, sizeof first);
-	ASSERT_EQ(pong_rig_parse(first, "first", &again, &error), PONG_FOUND) << error.text;
-	pong_rig_format(&again, second, sizeof second);
+	const Parsed read = parse(text);
+	ASSERT_EQ(read.code, PONG_FOUND) << read.error.text << "\n" << text;
+	char first[8192], second[8192];
+	pong_rig_format(&read.rig, first, sizeof first);
+	const Parsed again = parse(first);
+	ASSERT_EQ(again.code, PONG_FOUND) << again.error.text << "\n" << first;
+	pong_rig_format(&again.rig, second, sizeof second);
 	EXPECT_STREQ(first, second);
+}
+
+std::string left_of(const std::string &P)
+{
+	return "[left]\nsize = [640, 480]\nP = [" + P + "]\n";
+}
+
+TEST(Rig, IsWrittenAsItIsRead)
+{
+	expect_the_same_again(left + right);
+	expect_the_same_again(left_of("1000, 0, 320, 0, 0, 1000, 240, 0, 0, 3, 1, 0") + right);  // scaled
+	expect_the_same_again(left_of("1000, 0, 320, 0, 0, 1000, 240, 0, 0, 5, -1, 0") + right); // mirrored
+	expect_the_same_again(left_of("1, 0, 0, 1e300, 0, 1, 0, -5e-324, 0, 0, 1, 1e-310") + right);
+	expect_the_same_again("[hit]\nz = -0.0\n" + left + right + "distortion = [-0.0, -0, 0, 0, 0]\n");
+	expect_the_same_again("[hit]\nz = 12345678901234568.0\n" + left + right); // 17 digits, and no point
+	expect_the_same_again("[hit]\nz = 12345678901234567\n" + left + right);
+}
+
+// What is just a camera is just a camera when it is read again:  its pixels are 1e-9 as wide as they are high.
+TEST(Rig, ACameraOnTheVergeIsReadAgain)
+{
+	int cameras = 0;
+	for (int i = -500; i <= 500; i++) {
+		char P[200];
+		snprintf(P, sizeof P, "%.17g, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0", 3e-9 * std::sqrt(8) * (1 + i * 2e-16));
+		if (parse(left_of(P) + right).code != PONG_FOUND)
+			continue;
+		cameras++;
+		expect_the_same_again(left_of(P) + right);
+	}
+	EXPECT_GT(cameras, 0);
+	EXPECT_LT(cameras, 1001);
 }
 
 // toml++ would end the program.

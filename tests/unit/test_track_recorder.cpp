@@ -186,6 +186,27 @@ TEST_F(RecorderTest, MessagesAloneAreNoPictures)
 	EXPECT_THROW(Replay{settings_.path}, pong::Failure);
 }
 
+// The lengths of its texts are whatever a damaged file says.
+TEST_F(RecorderTest, ADamagedHeaderIsNoHeader)
+{
+	auto recorder = this->recorder();
+	recorder->add_pair(pair(1), {});
+	recorder->finish();
+	std::ifstream file(settings_.path, std::ios::binary);
+	const std::string whole(std::istreambuf_iterator<char>(file), {});
+	const size_t profile = whole.find(std::string("\0\0\0\6paper", 9));
+	ASSERT_NE(profile, std::string::npos);
+	for (const char *length : {"\x80\0\0\0", "\xff\xff\xff\xff", "\x7f\xff\xff\xff", "\0\0\0\0", "\0\0\1\0"}) {
+		std::string damaged = whole;
+		damaged.replace(profile, 4, length, 4);
+		std::ofstream(settings_.path, std::ios::binary) << damaged;
+		Replay replay(settings_.path);
+		EXPECT_THROW(replay.rig(), pong::Failure);
+		StereoPair read;
+		EXPECT_EQ(replay.next(read), Next::PAIR);
+	}
+}
+
 // A pipe that nobody reads is the slowest disk. Whoever tracks goes on, and every pair is written or counted.
 TEST_F(RecorderTest, ASlowDiskLosesPairsAndCountsThem)
 {

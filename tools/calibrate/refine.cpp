@@ -124,7 +124,7 @@ int refine(const Arguments &arguments)
 		throw pong::Failure(arguments.refine.front() + ": " + error.text);
 	tell(rig, side, result);
 	const std::string corrected = with_camera(read_text(arguments.rig), arguments.rig, side, rig.camera[side]);
-	write_text(arguments.output, with_section(corrected, "refinement", describe(side, result)));
+	write_text(arguments.output, with_section(corrected, arguments.rig, "refinement", describe(side, result)));
 	return 0;
 }
 

@@ -51,6 +51,19 @@ bool alike(const pong_camera &a, const pong_camera &b)
 	return true;
 }
 
+// Whether two texts say the same but for a section.
+bool alike_but_for(const std::string &section, const std::string &a, const std::string &b)
+{
+	try {
+		toml::table one = toml::parse(a), other = toml::parse(b);
+		one.erase(section);
+		other.erase(section);
+		return one == other;
+	} catch (const toml::parse_error &) {
+		return false;
+	}
+}
+
 } // namespace
 
 std::string read_text(const std::string &path)
@@ -74,7 +87,8 @@ std::string with_camera(const std::string &text, const std::string &path, pong_s
 	return result;
 }
 
-std::string with_section(const std::string &text, const std::string &name, const std::string &section)
+std::string with_section(const std::string &text, const std::string &path, const std::string &name,
+			 const std::string &section)
 {
 	std::istringstream lines(text);
 	std::string result, line;
@@ -87,7 +101,10 @@ std::string with_section(const std::string &text, const std::string &name, const
 	}
 	while (result.size() > 1 && result[result.size() - 2] == '\n')
 		result.pop_back();
-	return result + "\n" + section;
+	result += "\n" + section;
+	if (!alike_but_for(name, text, result))
+		throw pong::Failure(path + ": its [" + name + "] cannot be replaced in the way it is written there");
+	return result;
 }
 
 } // namespace calibrate

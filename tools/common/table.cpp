@@ -142,8 +142,9 @@ int64_t Table::get_integer(size_t row, size_t column) const
 {
 	const std::string &cell = cells_[row * names_.size() + column];
 	char *end;
+	errno = 0;
 	const long long value = strtoll(cell.c_str(), &end, 10);
-	if (*end || end == cell.c_str())
+	if (*end || end == cell.c_str() || errno)
 		throw Failure(path_ + ": '" + cell + "' in column " + names_[column] + " is no whole number");
 	return value;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <unistd.h>
 
+#include "big_endian.hpp"
 #include "program.hpp"
 
 namespace track
@@ -20,16 +21,6 @@ constexpr uint32_t MAGIC = 0xeda1da01;
 constexpr uint32_t LONGEST_CHANNEL = 63;                 // LCM's own limit
 constexpr uint32_t LARGEST_EVENT = 256u * 1024u * 1024u; // far above two pictures: what is more is damage
 constexpr size_t READ_AT_ONCE = 1024 * 1024;             // memory grows only with what is really in the file
-
-uint32_t load32(const uint8_t *bytes)
-{
-	return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
-}
-
-int64_t load64(const uint8_t *bytes)
-{
-	return static_cast<int64_t>(uint64_t{load32(bytes)} << 32 | load32(bytes + 4));
-}
 
 } // namespace
 

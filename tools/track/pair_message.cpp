@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "big_endian.hpp"
+
 namespace track
 {
 
@@ -12,17 +14,6 @@ constexpr int LARGEST_SIDE = 16384; // px
 
 // A message is its type's hash, three numbers of 64 bits, twelve of 32, the size of the pixels, and the pixels.
 constexpr size_t HEAD = 8 + 3 * 8 + 12 * 4 + 4;
-
-uint32_t load32(const uint8_t *bytes)
-{
-	return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
-}
-
-void store32(uint8_t *bytes, uint32_t value)
-{
-	for (int i = 0; i < 4; i++)
-		bytes[i] = static_cast<uint8_t>(value >> (24 - 8 * i));
-}
 
 size_t size_of(const Part &part)
 {
