@@ -17,7 +17,7 @@ LIB := \
 	region \
 	cells cell_memory conditions cell_sums patch lit_cells five_points blob outline fresh circles \
 	detect_difference detect_double detect \
-	cone locate_gaussian locate_centroid locate_edges tangent sphere ball_pixels light locate_photometric locate \
+	cone locate_gaussian locate_centroid locate_edges tangent sphere lamp ball_pixels light locate_photometric locate \
 	reconstruct \
 	flight physics trajectory noise estimate halves track \
 	outlook predict \

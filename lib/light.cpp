@@ -39,7 +39,7 @@ const double radius_part = 0.0075, radius_error = 0.03;
 const double unlike_usual = 0.4;
 // Of the covariance after the step: a part of it, for the fits' covariances hold much that is common; and of the
 // centres' own, as an error of the model that both pictures have alike (docs/locate.md).
-const double joined_part = 0.37, common_model_part = 0.5;
+const double joined_part = 0.7, common_model_part = 0.2;
 
 // A polynomial of second order in the normal: level + slope . n + n' curve n.
 struct Polynomial {

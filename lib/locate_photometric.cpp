@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ball_pixels.hpp"
+#include "lamp.hpp"
 #include "light.hpp"
 
 namespace pong
@@ -29,9 +30,11 @@ const int first_curved = geometry_terms + 4; // the first parameter of a shading
 const double shading_prior = 1000;
 const double curved_prior = 8, curved_prior_part = 0.15;
 const double background_prior = 0.15; // standard deviation of the background's factor and of its slopes
-const double noise_part = 0.45;       // of the fit's covariance, which holds for a true model, and
-const double patch_part = 2.9; // of the patches', by which the normalised squared errors average 2 (docs/locate.md)
-const double streak_error_part = 0.006; // of a streak, along it: the velocity is not known exactly
+// The covariance's parts, by which the normalised squared errors average 2 (docs/locate.md): of the fit's own, which
+// holds for a true model; of the patches'; and of the last step's square.
+const double noise_part = 2.1, patch_part = 0.4, step_part = 2;
+const double streak_error_part = 0.005; // of a streak, along it: the velocity is not known exactly
+const int lamp_rounds = 2;
 const double kept_least = 0.5;          // of a sector's outline, by the robust weights, where nothing covers it
 const int covered_least = 3;            // sectors of a ball that something covers
 const double covered_factor = 4;        // of the covariance then
@@ -88,10 +91,34 @@ public:
 			if (!(std::hypot(now_.u(), now_.v()) < limit_) ||
 			    !(std::abs(now_.radius() - start_.radius()) < limit_))
 				return false;
-			if (round > plain_rounds && step.head<2>().norm() < converged)
+			last_step_ = step.head<2>();
+			if (round > plain_rounds && last_step_.norm() < converged)
 				break;
 		}
 		return true;
+	}
+
+	// The border of a lamp's light (lamp.hpp): by how much it has moved the fit, to the first order, the fit moves
+	// back. That changes the second order, which tells the lamp.
+	void add_lamp()
+	{
+		const SphereParameters without = now_;
+		for (int round = 0; round < lamp_rounds; round++) {
+			const Lamp lamp = lamp_of(now_.value + geometry_terms);
+			NormalEquations sums;
+			sums.clear();
+			for (int b = 0; b < pixels_.count; b++) {
+				render_lamp(lamp, pixels_.blocks[b], lamp_level_[b]);
+				sums.add_right(pixels_.blocks[b], kept_[b], lamp_level_[b]);
+			}
+			Parameters pull;
+			for (int i = 0; i < sphere_parameters; i++)
+				pull[i] = add_up(sums.right[i]);
+			const Parameters change = -solver_.solve(pull);
+			for (int i = 0; i < sphere_parameters; i++)
+				now_.value[i] = without.value[i] + static_cast<float>(change[i]);
+		}
+		update_residuals(without);
 	}
 
 	// In the plane.
@@ -110,7 +137,8 @@ public:
 	}
 
 	// Of what is found, in the plane. Were the model true, the first part would do. What it cannot express shows in
-	// residuals that neighbours share: the second part takes them as alike within a patch.
+	// residuals that neighbours share: the second part takes them as alike within a patch. Where the steps
+	// shrink slowly, more are missing like the last one.
 	FoundMatrix covariance() const
 	{
 		float pull[patches][sphere_parameters] = {};
@@ -129,7 +157,9 @@ public:
 		const auto pulls =
 			Eigen::Map<Eigen::Matrix<float, patches, sphere_parameters, Eigen::RowMajor>>(&pull[0][0]);
 		const Eigen::Matrix<double, patches, found_terms> moved = pulls.cast<double>() * columns;
-		return noise_part * variance_ * fit + patch_part * moved.transpose() * moved;
+		FoundMatrix out = noise_part * variance_ * fit + patch_part * moved.transpose() * moved;
+		out.topLeftCorner<2, 2>() += step_part * last_step_ * last_step_.transpose();
+		return out;
 	}
 
 	// Whether at some of the outline the picture is not at all what a ball would make it.
@@ -194,19 +224,45 @@ private:
 		}
 		unexplained_ = unexplained;
 		different_ = different;
-		variance_ = std::max<double>(sum / std::max(count - sphere_parameters, 1.0f), variance_least);
+		set_variance(sum, count);
 		take(sums);
 		add_priors();
 	}
 
+	// After the lamp has been added, and the parameters have changed.
+	void update_residuals(const SphereParameters &before)
+	{
+		float change[sphere_parameters], sum = 0, count = 0;
+		for (int k = 0; k < sphere_parameters; k++)
+			change[k] = now_.value[k] - before.value[k];
+		for (int b = 0; b < pixels_.count; b++) {
+			float *residual = residual_[b];
+			for (int i = 0; i < block; i++)
+				residual[i] -= lamp_level_[b][i];
+			change_residual(pixels_.blocks[b], change, residual);
+			for (int i = 0; i < block; i++) {
+				sum += kept_[b][i] * residual[i] * residual[i];
+				count += pixels_.weight[b][i] > 0;
+			}
+		}
+		set_variance(sum, count);
+	}
+
+	void set_variance(float sum, float count)
+	{
+		variance_ = std::max<double>(sum / std::max(count - sphere_parameters, 1.0f), variance_least);
+	}
+
+	static double add_up(const float lane[NormalEquations::lanes])
+	{
+		double sum = 0;
+		for (int i = 0; i < NormalEquations::lanes; i++)
+			sum += static_cast<double>(lane[i]);
+		return sum;
+	}
+
 	void take(const NormalEquations &sums)
 	{
-		const auto add_up = [](const float *lane) {
-			double sum = 0;
-			for (int i = 0; i < NormalEquations::lanes; i++)
-				sum += static_cast<double>(lane[i]);
-			return sum;
-		};
 		const float(*in)[NormalEquations::lanes] = sums.normal;
 		for (int i = 0; i < sphere_parameters; i++) {
 			right_[i] = add_up(sums.right[i]);
@@ -249,7 +305,9 @@ private:
 	Normal normal_;
 	Parameters right_;
 	Eigen::LDLT<Normal> solver_;
+	Vector2 last_step_ = {0, 0};                                  // px
 	float residual_[blocks_max][block], kept_[blocks_max][block]; // grey levels, and their robust weights
+	float lamp_level_[blocks_max][block];                         // grey levels
 	double unexplained_ = 0, different_ = 0;                      // sums of magnitudes, grey levels
 	double variance_ = 1; // of the residuals, over what the sensor's noise would make it
 };
@@ -289,6 +347,7 @@ bool locate_photometric(const LocateTask &task, pong_centre *centre)
 	if (!fit.explains())
 		return false;
 	const bool covered = fit.covered();
+	fit.add_lamp();
 	FoundVector found = fit.found();
 	const FoundMatrix to_pixels = pixels_from_plane(camera, plane, found.head<2>());
 	const Vector2 uv = plane.to_pixel(camera, found.head<2>());

@@ -151,6 +151,36 @@ PONG_CLONES static void add_products(const SphereBlock &pixels, const float weig
 	}
 }
 
+PONG_CLONES static void add_right_side(const SphereBlock &pixels, const float weight[block],
+				       const float residual[block], NormalEquations *sums)
+{
+	const int lanes = NormalEquations::lanes;
+	float weighted[block];
+	for (int i = 0; i < block; i++)
+		weighted[i] = weight[i] * residual[i];
+	for (int k = 0; k < sphere_parameters; k++) {
+		float sum[lanes] = {};
+		for (int i = 0; i < block; i += lanes)
+			for (int lane = 0; lane < lanes; lane++)
+				sum[lane] += weighted[i + lane] * pixels.slope[k][i + lane];
+		for (int lane = 0; lane < lanes; lane++)
+			sums->right[k][lane] += sum[lane];
+	}
+}
+
+PONG_CLONES void change_residual(const SphereBlock &pixels, const float change[sphere_parameters],
+				 float residual[block])
+{
+	for (int k = 0; k < sphere_parameters; k++)
+		for (int i = 0; i < block; i++)
+			residual[i] -= change[k] * pixels.slope[k][i];
+}
+
+void NormalEquations::add_right(const SphereBlock &pixels, const float weight[block], const float residual[block])
+{
+	add_right_side(pixels, weight, residual, this);
+}
+
 void NormalEquations::add(const SphereBlock &pixels, const float weight[block], const float residual[block])
 {
 	add_products(pixels, weight, residual, this);

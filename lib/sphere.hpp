@@ -65,6 +65,11 @@ struct NormalEquations {
 
 	void clear();
 	void add(const SphereBlock &pixels, const float weight[block], const float residual[block]);
+	// Only the second sum.
+	void add_right(const SphereBlock &pixels, const float weight[block], const float residual[block]);
 };
+
+// Take from the residuals what a change of the parameters adds to the levels.
+void change_residual(const SphereBlock &pixels, const float change[sphere_parameters], float residual[block]);
 
 } // namespace pong
