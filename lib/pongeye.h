@@ -643,8 +643,8 @@ typedef struct pong_eye pong_eye;
 PONG_API pong_eye *pong_eye_new(const pong_rig *rig, const pong_settings *settings, pong_error *error);
 PONG_API void pong_eye_free(pong_eye *eye);
 
-/* How long a camera exposes its pictures, s: from the next pair on a flying ball's streak is known. It stays so until it is
- * told anew; 0, or more than 0.1: unknown. Where settings->locate.exposure says it, that stands. */
+/* How long a camera exposes its pictures, s: from the next pair on a flying ball's streak is known. It stays so until
+ * it is told anew; 0, or more than 0.1: unknown. Where settings->locate.exposure says it, that stands. */
 PONG_API void pong_eye_set_exposure(pong_eye *eye, pong_side side, double exposure);
 
 /* Look at one stereo pair; the pictures are not kept. *sight is always filled.
