@@ -16,24 +16,13 @@ namespace
 using TermsVector = Eigen::Matrix<double, PONG_LIGHT_TERMS, 1>;
 using TermsMatrix = Eigen::Matrix<double, PONG_LIGHT_TERMS, PONG_LIGHT_TERMS>;
 using ShareMatrix = Eigen::Matrix<double, centre_terms, PONG_LIGHT_TERMS>;
-const int radius_term = PONG_LIGHT_TERMS - 1;
-static_assert(radius_term == shading_terms);
-
-// What is known of both fits together: the shading of both is the same, and each radius is the ball's.
-const int known_terms = shading_terms + 2;
-using KnownVector = Eigen::Matrix<double, known_terms, 1>;
-using KnownMatrix = Eigen::Matrix<double, known_terms, known_terms>;
-using KnownShare = Eigen::Matrix<double, 2 * centre_terms, known_terms>;
-using ShadingMatrix = Eigen::Matrix<double, shading_terms, shading_terms>;
 
 // How unlike the light is in the two pictures, standard deviations: by a factor, for cameras are set unlike; by a part
 // of the rise of the shading and by grey levels, for surfaces are not quite matt, nor smooth.
 const double gain_difference = 0.3;
 const double part_difference = 0.1;
 const double level_difference = 2;
-// How well the radii are known, standard deviations: a part of both, as the rules leave it to balls (40.0 to 40.6 mm,
-// ITTF leaflet T3), and px of each.
-const double radius_part = 0.0075, radius_error = 0.03;
+const double radius_difference = 0.01; // px, the distances from both cameras being known
 // How unlike the light of two pictures usually is at most, squared, a term, in the standard deviations of what is known
 // of it; where it is more, the covariance grows with it.
 const double unlike_usual = 0.4;
@@ -71,64 +60,36 @@ using FloatTerms = Eigen::Matrix<float, PONG_LIGHT_TERMS, 1>;
 using FloatMatrix = Eigen::Matrix<float, PONG_LIGHT_TERMS, PONG_LIGHT_TERMS, Eigen::RowMajor>;
 using FloatShare = Eigen::Matrix<float, centre_terms, PONG_LIGHT_TERMS, Eigen::RowMajor>;
 
-// One camera's.
+// One camera's, the radius in multiples of `unit`.
 struct Light {
 	TermsVector term;
 	TermsMatrix covariance;
 	ShareMatrix with_centre;
 };
 
-Light load(const pong_light &light)
+Light load(const pong_light &light, double unit)
 {
-	return {Eigen::Map<const FloatTerms>(light.term).cast<double>(),
-		Eigen::Map<const FloatMatrix>(&light.covariance[0][0]).cast<double>(),
-		Eigen::Map<const FloatShare>(&light.with_centre[0][0]).cast<double>()};
+	Light out = {Eigen::Map<const FloatTerms>(light.term).cast<double>(),
+		     Eigen::Map<const FloatMatrix>(&light.covariance[0][0]).cast<double>(),
+		     Eigen::Map<const FloatShare>(&light.with_centre[0][0]).cast<double>()};
+	const int radius = PONG_LIGHT_TERMS - 1;
+	out.term[radius] /= unit;
+	out.covariance.row(radius) /= unit;
+	out.covariance.col(radius) /= unit;
+	out.with_centre.col(radius) /= unit;
+	return out;
 }
 
-// Of the shading in the two pictures of one ball, the covariance of what it differs by.
-ShadingMatrix difference_allowed(const Terms &mean)
+// Of the terms of the two pictures of one ball, the covariance of what they differ by.
+TermsMatrix difference_allowed(const TermsVector &mean)
 {
 	const double rise = mean.segment<3>(1).norm();
-	const Terms gain = gain_difference * mean;
-	ShadingMatrix covariance = gain * gain.transpose();
+	TermsVector gain = gain_difference * mean;
+	gain[PONG_LIGHT_TERMS - 1] = 0;
+	TermsMatrix covariance = gain * gain.transpose();
 	covariance.diagonal().array() += level_difference * level_difference + std::pow(part_difference * rise, 2);
+	covariance(PONG_LIGHT_TERMS - 1, PONG_LIGHT_TERMS - 1) = radius_difference * radius_difference;
 	return covariance;
-}
-
-// By how much what is known is missed.
-KnownVector missed(const Light &left, const Light &right, const Vector2 &radius)
-{
-	KnownVector out;
-	out << (left.term - right.term).head<shading_terms>(), left.term[radius_term] - radius[PONG_LEFT],
-		right.term[radius_term] - radius[PONG_RIGHT];
-	return out;
-}
-
-// The covariance of that.
-KnownMatrix missed_covariance(const Light &left, const Light &right, const Vector2 &radius)
-{
-	const Terms mean = (left.term + right.term).head<shading_terms>() / 2;
-	KnownMatrix out;
-	out.topLeftCorner<shading_terms, shading_terms>() =
-		(left.covariance + right.covariance).topLeftCorner<shading_terms, shading_terms>() +
-		difference_allowed(mean);
-	out.topRightCorner<shading_terms, 2>() << left.covariance.col(radius_term).head<shading_terms>(),
-		-right.covariance.col(radius_term).head<shading_terms>();
-	out.bottomLeftCorner<2, shading_terms>() = out.topRightCorner<shading_terms, 2>().transpose();
-	out.bottomRightCorner<2, 2>() = radius_part * radius_part * radius * radius.transpose();
-	out.diagonal().tail<2>() +=
-		Vector2(left.covariance(radius_term, radius_term), right.covariance(radius_term, radius_term)) +
-		Vector2::Constant(radius_error * radius_error);
-	return out;
-}
-
-// The covariance of the centres with that.
-KnownShare centres_share(const Light &left, const Light &right)
-{
-	KnownShare out;
-	out << left.with_centre, Vector2::Zero(), -right.with_centre.leftCols<shading_terms>(), Vector2::Zero(),
-		right.with_centre.col(radius_term);
-	return out;
 }
 
 } // namespace
@@ -153,20 +114,24 @@ void store_light(const FoundVector &found, const FoundMatrix &covariance, pong_l
 		covariance.topRightCorner<centre_terms, PONG_LIGHT_TERMS>().cast<float>();
 }
 
-bool join_lights(const pong_rig &rig, const Vector3 &position, pong_centre centre[2], Eigen::Matrix4d *covariance)
+bool join_lights(const pong_camera camera[2], const Vector3 &position, pong_centre centre[2],
+		 Eigen::Matrix4d *covariance)
 {
 	if (!centre[PONG_LEFT].light.known || !centre[PONG_RIGHT].light.known)
 		return false;
-	const Light left = load(centre[PONG_LEFT].light), right = load(centre[PONG_RIGHT].light);
-	const Vector2 radius(pong_apparent_size(&rig.camera[PONG_LEFT], position.data(), rig.ball.diameter) / 2,
-			     pong_apparent_size(&rig.camera[PONG_RIGHT], position.data(), rig.ball.diameter) / 2);
-	const KnownVector differ = missed(left, right, radius);
-	const Eigen::LDLT<KnownMatrix> solver(missed_covariance(left, right, radius));
+	const double one = 1; // m; the ratio does not depend on it
+	const double ratio = pong_apparent_size(&camera[PONG_RIGHT], position.data(), one) /
+			     pong_apparent_size(&camera[PONG_LEFT], position.data(), one);
+	const Light left = load(centre[PONG_LEFT].light, 1), right = load(centre[PONG_RIGHT].light, ratio);
+	const TermsVector differ = left.term - right.term;
+	TermsMatrix spread = left.covariance + right.covariance + difference_allowed((left.term + right.term) / 2);
+	const Eigen::LDLT<TermsMatrix> solver(spread);
 	// Squared, a term, in standard deviations. Where that is much, what is seen is not only light: something covers
 	// the ball.
-	const double unlike = differ.dot(solver.solve(differ)) / known_terms;
+	const double unlike = differ.dot(solver.solve(differ)) / PONG_LIGHT_TERMS;
 	const double damping = std::max(1.0, unlike), doubt = std::max(1.0, unlike / unlike_usual);
-	const KnownShare share = centres_share(left, right);
+	Eigen::Matrix<double, 4, PONG_LIGHT_TERMS> share;
+	share << left.with_centre, -right.with_centre;
 	const Eigen::Vector4d step = -share * solver.solve(differ) / damping;
 	Eigen::Matrix4d before = Eigen::Matrix4d::Zero();
 	Matrix2 mean = Matrix2::Zero();

@@ -21,9 +21,9 @@ using FoundMatrix = Eigen::Matrix<double, found_terms, found_terms>;
 // Keep the light of a fit, and how its errors go with the centre's.
 void store_light(const FoundVector &found, const FoundMatrix &covariance, pong_light *light);
 
-// One light and one size for both pictures of a ball at a position: what each centre's own light and radius err by, the
-// centre errs with. Moves both centres, and gives the covariance of left u, v, right u, v. False where the fits told no
-// light.
-bool join_lights(const pong_rig &rig, const Vector3 &position, pong_centre centre[2], Eigen::Matrix4d *covariance);
+// One light for both pictures of a ball at a position: what each centre's own light errs by, the centre errs with.
+// Moves both centres, and gives the covariance of left u, v, right u, v. False where the fits told no light.
+bool join_lights(const pong_camera camera[2], const Vector3 &position, pong_centre centre[2],
+		 Eigen::Matrix4d *covariance);
 
 } // namespace pong

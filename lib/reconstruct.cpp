@@ -210,7 +210,7 @@ int pong_reconstruct(const pong_rig *rig, const pong_centre *left, const pong_ce
 			return PONG_NONE;
 	const bool likely = settings->reconstruct.method == PONG_RECONSTRUCT_LIKELY;
 	Matrix4 covariance = centres_covariance(centre);
-	if (likely && join_lights(*rig, position, centre, &covariance))
+	if (likely && join_lights(rig->camera, position, centre, &covariance))
 		pair = ideal_pair(rig->camera, centre);
 	covariance += rig_covariance(rig->camera, pair, settings->reconstruct.epipolar);
 	const Matrix4 information = covariance.inverse();

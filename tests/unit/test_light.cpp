@@ -80,41 +80,6 @@ TEST(Light, IsOneForBothPictures)
 	EXPECT_LT(joined_deviation, 0.5 * apart_deviation);
 }
 
-// A ball whose lower side is as dark as what is behind it: its fit ends it too early, by half a pixel of the radius,
-// and the centre is too high by as much.
-pong_centre centre_of_half_lost_ball(const pong_camera &camera)
-{
-	const float radius_error = 0.5f;
-	pong_centre centre = centre_by_light(camera, 0);
-	centre.light.covariance[PONG_LIGHT_TERMS - 1][PONG_LIGHT_TERMS - 1] = radius_error * radius_error;
-	centre.light.with_centre[1][PONG_LIGHT_TERMS - 1] = radius_error * radius_error;
-	centre.covariance[1][1] += std::pow(static_cast<double>(radius_error), 2);
-	centre.light.term[PONG_LIGHT_TERMS - 1] -= radius_error;
-	centre.v -= static_cast<double>(radius_error);
-	return centre;
-}
-
-double height_error(pong_centre left, pong_centre right, bool light_known)
-{
-	const pong_rig rig = test_rig();
-	pong_settings settings;
-	pong_settings_defaults(PONG_BEST, &settings);
-	left.light.known = light_known;
-	pong_point point = {};
-	EXPECT_EQ(pong_reconstruct(&rig, &left, &right, &settings, &point), PONG_FOUND);
-	return std::abs(point.position[1] - place[1]);
-}
-
-TEST(Light, HowLargeABallMustBeTellsWhereItEnds)
-{
-	const pong_rig rig = test_rig();
-	const pong_centre left = centre_of_half_lost_ball(rig.camera[PONG_LEFT]);
-	const pong_centre right = centre_of_half_lost_ball(rig.camera[PONG_RIGHT]);
-	const double apart = height_error(left, right, false), joined = height_error(left, right, true);
-	EXPECT_GT(apart, 0.0005);
-	EXPECT_LT(joined, 0.2 * apart);
-}
-
 // Something other than light makes pictures of a ball so unlike.
 TEST(Light, IsTrustedLessWhereItIsUnlike)
 {
