@@ -126,46 +126,40 @@ void NormalEquations::clear()
 	memset(this, 0, sizeof *this);
 }
 
+// The sum of products, in lanes.
+static inline void add_lanes(const float a[block], const float b[block], float out[NormalEquations::lanes])
+{
+	const int lanes = NormalEquations::lanes;
+	float sum[lanes] = {};
+	for (int i = 0; i < block; i += lanes)
+		for (int lane = 0; lane < lanes; lane++)
+			sum[lane] += a[i + lane] * b[i + lane];
+	for (int lane = 0; lane < lanes; lane++)
+		out[lane] += sum[lane];
+}
+
 PONG_CLONES static void add_products(const SphereBlock &pixels, const float weight[block], const float residual[block],
 				     NormalEquations *sums)
 {
-	const int lanes = NormalEquations::lanes;
-	float(*out)[lanes] = sums->normal;
+	float(*out)[NormalEquations::lanes] = sums->normal;
 	for (int k = 0; k < sphere_parameters; k++) {
-		float weighted[block], sum[lanes] = {};
+		float weighted[block];
 		for (int i = 0; i < block; i++)
 			weighted[i] = weight[i] * pixels.slope[k][i];
-		for (int i = 0; i < block; i += lanes)
-			for (int lane = 0; lane < lanes; lane++)
-				sum[lane] += weighted[i + lane] * residual[i + lane];
-		for (int lane = 0; lane < lanes; lane++)
-			sums->right[k][lane] += sum[lane];
-		for (int j = k; j < sphere_parameters; j++, out++) {
-			float product[lanes] = {};
-			for (int i = 0; i < block; i += lanes)
-				for (int lane = 0; lane < lanes; lane++)
-					product[lane] += weighted[i + lane] * pixels.slope[j][i + lane];
-			for (int lane = 0; lane < lanes; lane++)
-				(*out)[lane] += product[lane];
-		}
+		add_lanes(weighted, residual, sums->right[k]);
+		for (int j = k; j < sphere_parameters; j++)
+			add_lanes(weighted, pixels.slope[j], *out++);
 	}
 }
 
 PONG_CLONES static void add_right_side(const SphereBlock &pixels, const float weight[block],
 				       const float residual[block], NormalEquations *sums)
 {
-	const int lanes = NormalEquations::lanes;
 	float weighted[block];
 	for (int i = 0; i < block; i++)
 		weighted[i] = weight[i] * residual[i];
-	for (int k = 0; k < sphere_parameters; k++) {
-		float sum[lanes] = {};
-		for (int i = 0; i < block; i += lanes)
-			for (int lane = 0; lane < lanes; lane++)
-				sum[lane] += weighted[i + lane] * pixels.slope[k][i + lane];
-		for (int lane = 0; lane < lanes; lane++)
-			sums->right[k][lane] += sum[lane];
-	}
+	for (int k = 0; k < sphere_parameters; k++)
+		add_lanes(weighted, pixels.slope[k], sums->right[k]);
 }
 
 PONG_CLONES void change_residual(const SphereBlock &pixels, const float change[sphere_parameters],
