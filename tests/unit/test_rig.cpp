@@ -196,7 +196,7 @@ TEST(Rig, IsWrittenAsItIsRead)
 	expect_the_same_again("[hit]\nz = 12345678901234567\n" + left + right);
 }
 
-// What is just a camera is just a camera when it is read again:  its pixels are 1e-9 as wide as they are high.
+// What is just a camera is just a camera when it is read again: its pixels are 1e-9 as wide as they are high.
 TEST(Rig, ACameraOnTheVergeIsReadAgain)
 {
 	int cameras = 0;

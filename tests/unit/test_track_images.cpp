@@ -145,9 +145,11 @@ TEST_F(TrackImages, NoFolder)
 TEST_F(TrackImages, ReadsPixels)
 {
 	write_pair("7");
-	const auto source = track::open_images(folder(), 100, 0);
+	const auto source = track::open_images(folder(), 100, 0.002);
 	StereoPair pair;
 	ASSERT_EQ(source->next(pair), Next::PAIR);
+	EXPECT_EQ(pair.exposure_us[PONG_LEFT], 2000);
+	EXPECT_EQ(pair.exposure_us[PONG_RIGHT], 2000);
 	EXPECT_EQ(pair.frame, 7);
 	EXPECT_EQ(pair.left.width, 3);
 	EXPECT_EQ(pair.left.height, 2);
